@@ -1,0 +1,33 @@
+# How every target of the project is made: one library a part, warnings as errors, includes from the root.
+
+add_library(floornav_options INTERFACE)
+target_include_directories(floornav_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(floornav_options INTERFACE -Wall -Wextra -Wconversion -Werror -ffp-contract=off)
+if(FLOORNAV_SANITIZE)
+  target_compile_options(floornav_options INTERFACE -fsanitize=${FLOORNAV_SANITIZE} -fno-omit-frame-pointer
+                                                    -fno-sanitize-recover=all)
+  target_link_options(floornav_options INTERFACE -fsanitize=${FLOORNAV_SANITIZE})
+endif()
+
+# floornav_library(NAME SOURCES ... LINK ...): static library floornav_NAME, alias floornav::NAME.
+function(floornav_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(floornav_${name} STATIC ${ARG_SOURCES})
+  add_library(floornav::${name} ALIAS floornav_${name})
+  target_link_libraries(floornav_${name} PRIVATE floornav_options PUBLIC ${ARG_LINK})
+endfunction()
+
+# floornav_program(NAME SOURCES ... LINK ...): build/bin/floornav-NAME.
+function(floornav_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(floornav-${name} ${ARG_SOURCES})
+  target_link_libraries(floornav-${name} PRIVATE floornav_options ${ARG_LINK})
+endfunction()
+
+# floornav_test(NAME SOURCES ... LINK ...): a GoogleTest program of which every test is a CTest test.
+function(floornav_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(test_${name} ${ARG_SOURCES})
+  target_link_libraries(test_${name} PRIVATE floornav_options ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+endfunction()
