@@ -10,8 +10,8 @@
 
 namespace floornav {
 
-/// One stage of the flow behind its messages. All calls come from one thread, one at a time: the executors (live and
-/// replay) differ in who delivers messages and whose clock `now` is, and the node cannot tell.
+/// One stage of the flow behind its messages. All calls come from one thread, one at a time: the executors
+/// (live and replay) differ in who delivers messages and whose clock `now` is, and the node cannot tell.
 class Node {
  public:
   virtual ~Node() = default;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/process/identity.hpp"
+#include "runtime/process/sequence.hpp"
 
 namespace floornav {
 
@@ -22,14 +23,17 @@ class Outbox {
  public:
   explicit Outbox(Identity identity) : identity_(std::move(identity)) {}
 
-  /// Fills in source, session and the channel's next seq, and queues the encoded message. Throws std::logic_error where
-  /// a count differs from its vector's size.
+  /// Fills in source, session and the channel's next seq where the type has them, and queues the encoded
+  /// message. Throws std::logic_error where a count differs from its vector's size.
   template <class Message>
   void publish(const std::string& channel, Message message) {
-    message.source = identity_.source;
-    message.session = identity_.session;
-    message.seq = ++last_seq_[channel];
-    EncodedMessage encoded{channel, std::vector<std::uint8_t>(static_cast<std::size_t>(message.getEncodedSize()))};
+    if constexpr (Sequenced<Message>) {
+      message.source = identity_.source;
+      message.session = identity_.session;
+      message.seq = ++last_seq_[channel];
+    }
+    EncodedMessage encoded{channel,
+                           std::vector<std::uint8_t>(static_cast<std::size_t>(message.getEncodedSize()))};
     const int size = static_cast<int>(encoded.bytes.size());
     if (message.encode(encoded.bytes.data(), 0, size) != size)
       throw std::logic_error(channel + ": message does not encode: a count differs from its array");
