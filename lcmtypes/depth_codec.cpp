@@ -1,0 +1,178 @@
+#include "lcmtypes/depth_codec.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace floornav {
+namespace {
+
+// Both directions handle a chain as a whole, held with its first nibble lowest: bits 0..2 the number's
+// lowest, bit 3 set where the chain goes on. A chain has at most 8 nibbles, so a number at most 24 bits.
+constexpr std::uint64_t kChainBits = 0x8888'8888'8888'8888;
+constexpr std::uint32_t kLongestChain = 32;  // bits
+
+constexpr std::size_t kMostBytesPerPixel = 3;  // a difference has 17 bits: 6 nibbles
+
+/// A word of the stream, first nibble in the top bits, to and from first nibble in the lowest.
+std::uint32_t reverse_nibbles(std::uint32_t word) {
+  word = ((word >> 4) & 0x0F0F'0F0F) | ((word & 0x0F0F'0F0F) << 4);
+  word = ((word >> 8) & 0x00FF'00FF) | ((word & 0x00FF'00FF) << 8);
+  return (word >> 16) | (word << 16);
+}
+
+/// Puts the number's groups of 3 bits into nibbles.
+std::uint32_t spread(std::uint32_t number) {
+  std::uint32_t x = (number & 0xFFF) | ((number & 0xFF'F000) << 4);
+  x = (x & 0x003F'003F) | ((x & 0x0FC0'0FC0) << 2);
+  return (x & 0x0707'0707) | ((x & 0x3838'3838) << 1);
+}
+
+/// The inverse of spread; chain bits are dropped.
+std::uint32_t gather(std::uint32_t chain) {
+  std::uint32_t x = (chain & 0x0707'0707) | ((chain & 0x7070'7070) >> 1);
+  x = (x & 0x003F'003F) | ((x & 0x3F00'3F00) >> 2);
+  return (x & 0xFFF) | ((x & 0x0FFF'0000) >> 4);
+}
+
+std::uint32_t fold(std::int32_t difference) {
+  return (static_cast<std::uint32_t>(difference) << 1) ^ static_cast<std::uint32_t>(difference >> 31);
+}
+
+std::int32_t unfold(std::uint32_t number) {
+  return static_cast<std::int32_t>(number >> 1) ^ -static_cast<std::int32_t>(number & 1);
+}
+
+class NibbleWriter {
+ public:
+  explicit NibbleWriter(std::uint8_t* out) : out_(out) {}
+
+  void write(std::uint32_t number) {
+    const auto nibbles = std::max(1U, (static_cast<std::uint32_t>(std::bit_width(number)) + 2) / 3);
+    const std::uint64_t followed = (std::uint64_t{1} << (4 * (nibbles - 1))) - 1;
+    pending_ |= (spread(number) | (kChainBits & followed)) << bits_;
+    bits_ += 4 * nibbles;
+    if (bits_ >= 32) {
+      put_word();
+      bits_ -= 32;
+    }
+  }
+
+  /// Fills the last word with zeros; returns the end of what was written.
+  std::uint8_t* finish() {
+    if (bits_ > 0) put_word();
+    return out_;
+  }
+
+ private:
+  void put_word() {
+    const std::uint32_t word = reverse_nibbles(static_cast<std::uint32_t>(pending_));
+    for (int byte = 0; byte < 4; ++byte) *out_++ = static_cast<std::uint8_t>(word >> (8 * byte));
+    pending_ >>= 32;
+  }
+
+  std::uint8_t* out_;
+  std::uint64_t pending_ = 0;  // first nibble lowest
+  std::uint32_t bits_ = 0;     // of pending_, below 32 between calls
+};
+
+class NibbleReader {
+ public:
+  explicit NibbleReader(std::span<const std::uint8_t> code) : next_(code.data()), end_(next_ + code.size()) {}
+
+  std::uint32_t read() {
+    if (bits_ < kLongestChain) refill();
+    const auto length = static_cast<std::uint32_t>(std::countr_zero(~pending_ & kChainBits)) + 1;
+    if (length > bits_) throw CorruptDepth("depth code ends in the middle");
+    if (length > kLongestChain) throw CorruptDepth("depth code has a number that is too long");
+    const auto chain = static_cast<std::uint32_t>(pending_ & ((std::uint64_t{1} << length) - 1));
+    if (length > 4 && (chain >> (length - 4)) == 0) throw CorruptDepth("depth code has a padded number");
+    pending_ >>= length;
+    bits_ -= length;
+    return gather(chain);
+  }
+
+  /// Throws unless all that is left is the zeros that fill the last word.
+  void finish() const {
+    if (next_ != end_ || bits_ >= 32 || pending_ != 0)
+      throw CorruptDepth("depth code goes on after its last pixel");
+  }
+
+ private:
+  void refill() {
+    if (next_ == end_) return;
+    std::uint32_t word = 0;
+    for (int byte = 0; byte < 4; ++byte) word |= static_cast<std::uint32_t>(*next_++) << (8 * byte);
+    pending_ |= static_cast<std::uint64_t>(reverse_nibbles(word)) << bits_;
+    bits_ += 32;
+  }
+
+  const std::uint8_t* next_;
+  const std::uint8_t* end_;
+  std::uint64_t pending_ = 0;  // first nibble lowest; zeros above bits_
+  std::uint32_t bits_ = 0;     // of pending_
+};
+
+}  // namespace
+
+void encode_rvl(std::span<const std::uint16_t> pixels, std::vector<std::uint8_t>& code) {
+  if (pixels.size() > kMostDepthPixels) throw std::length_error("depth image of more than 2^24 - 1 pixels");
+  code.resize(kMostBytesPerPixel * pixels.size() + 8);
+  NibbleWriter writer(code.data());
+  const auto is_zero = [](std::uint16_t pixel) { return pixel == 0; };
+  std::int32_t previous = 0;
+  for (auto next = pixels.begin(); next != pixels.end();) {
+    const auto run = std::find_if_not(next, pixels.end(), is_zero);
+    const auto run_end = std::find_if(run, pixels.end(), is_zero);
+    writer.write(static_cast<std::uint32_t>(run - next));
+    writer.write(static_cast<std::uint32_t>(run_end - run));
+    for (next = run; next != run_end; ++next) {
+      writer.write(fold(*next - previous));
+      previous = *next;
+    }
+  }
+  code.resize(static_cast<std::size_t>(writer.finish() - code.data()));
+}
+
+void decode_rvl(std::span<const std::uint8_t> code, std::span<std::uint16_t> pixels) {
+  if (code.size() % 4 != 0) throw CorruptDepth("depth code is not made of 32-bit words");
+  NibbleReader reader(code);
+  std::int32_t previous = 0;
+  for (auto left = pixels; !left.empty();) {
+    const std::size_t zeros = reader.read();
+    if (zeros > left.size()) throw CorruptDepth("depth code has more pixels than the image");
+    if (zeros == 0 && left.size() < pixels.size()) throw CorruptDepth("depth code has an empty run");
+    std::fill_n(left.begin(), zeros, std::uint16_t{0});
+    left = left.subspan(zeros);
+    const std::size_t others = reader.read();
+    if (others > left.size()) throw CorruptDepth("depth code has more pixels than the image");
+    if (others == 0 && !left.empty()) throw CorruptDepth("depth code has an empty run");
+    for (std::uint16_t& pixel : left.first(others)) {
+      previous += unfold(reader.read());
+      if (previous < 1 || previous > 0xFFFF) throw CorruptDepth("depth code leaves the range of a pixel");
+      pixel = static_cast<std::uint16_t>(previous);
+    }
+    left = left.subspan(others);
+  }
+  reader.finish();
+}
+
+void encode_raw16(std::span<const std::uint16_t> pixels, std::vector<std::uint8_t>& code) {
+  code.resize(2 * pixels.size());
+  std::uint8_t* out = code.data();
+  for (const std::uint16_t pixel : pixels) {
+    *out++ = static_cast<std::uint8_t>(pixel);
+    *out++ = static_cast<std::uint8_t>(pixel >> 8);
+  }
+}
+
+void decode_raw16(std::span<const std::uint8_t> code, std::span<std::uint16_t> pixels) {
+  if (code.size() != 2 * pixels.size()) throw CorruptDepth("raw depth is not two bytes a pixel");
+  const std::uint8_t* in = code.data();
+  for (std::uint16_t& pixel : pixels) {
+    pixel = static_cast<std::uint16_t>(in[0] | in[1] << 8);
+    in += 2;
+  }
+}
+
+}  // namespace floornav
