@@ -1,0 +1,57 @@
+#include "tools/bench/movingai.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "planner/search/a_star.hpp"
+
+namespace floornav {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path movingai_folder() {
+  const char* const data = std::getenv("FLOORNAV_DATA");
+  const fs::path root = data != nullptr ? fs::path(data) : fs::path(FLOORNAV_SOURCE_DIR) / "../shared/data";
+  return root / "movingai";
+}
+
+/// A few maps of different kinds; all of them where FLOORNAV_ALL_MAPS is set in the environment.
+std::set<std::string> maps_to_try() {
+  if (std::getenv("FLOORNAV_ALL_MAPS") == nullptr)
+    return {"arena", "den312d", "ost003d", "Berlin_0_256", "AR0011SR"};
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(movingai_folder()))
+    if (entry.path().extension() == ".map") names.insert(entry.path().stem().string());
+  return names;
+}
+
+/// Published lengths of eight decimals are sums of rounded steps. Different lengths of paths under 5741
+/// diagonal steps lie further apart than 5e-5.
+constexpr double kPublishedRounding = 1e-5;
+
+TEST(MovingAi, EveryProblemHasThePublishedLength) {
+  if (!fs::exists(movingai_folder())) GTEST_SKIP() << "no benchmark maps at " << movingai_folder();
+  AStar a_star;
+  std::vector<GridCell> path;
+  std::size_t solved = 0;
+  for (const std::string& name : maps_to_try()) {
+    const SearchGrid grid = read_movingai_map(movingai_folder() / (name + ".map"));
+    for (const MovingAiProblem& p : read_movingai_problems(movingai_folder() / (name + ".map.scen"))) {
+      ASSERT_EQ(a_star.search(grid, p.start, p.goal), SearchOutcome::kFound) << name;
+      a_star.path_to(p.goal, path);
+      ASSERT_NEAR(path_length(path), p.optimal, std::max(0.51 * p.last_digit, kPublishedRounding))
+          << name << " " << p.start.x << "," << p.start.y << " to " << p.goal.x << "," << p.goal.y;
+      ++solved;
+    }
+  }
+  EXPECT_GT(solved, 3000U);
+}
+
+}  // namespace
+}  // namespace floornav
