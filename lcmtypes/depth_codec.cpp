@@ -86,7 +86,9 @@ class NibbleReader {
     if (length > bits_) throw CorruptDepth("depth code ends in the middle");
     if (length > kLongestChain) throw CorruptDepth("depth code has a number that is too long");
     const auto chain = static_cast<std::uint32_t>(pending_ & ((std::uint64_t{1} << length) - 1));
-    if (length > 4 && (chain >> (length - 4)) == 0) throw CorruptDepth("depth code has a padded number");
+    // One comparison for "of several nibbles, the last is 0": how long chains are is hard to predict.
+    if ((chain >> (length - 4)) < static_cast<std::uint32_t>(length > 4))
+      throw CorruptDepth("depth code has a padded number");
     pending_ >>= length;
     bits_ -= length;
     return gather(chain);
