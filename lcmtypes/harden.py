@@ -17,7 +17,6 @@ A header that does not look as expected is an error: no output is written, so th
 
 import re
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 
 NUMBER_BYTES = {"byte": 1, "boolean": 1, "int8_t": 1, "int16_t": 2, "int32_t": 4, "int64_t": 8,
@@ -28,11 +27,11 @@ class Unexpected(Exception):
     """The definition or the generated header is not of the form that this script knows."""
 
 
-@dataclass
 class Member:
-    name: str
-    type: str
-    dims: list[str]  # outermost first: a number, or the name of the member that counts
+    def __init__(self, name, type_name, dims):
+        self.name = name
+        self.type = type_name
+        self.dims = dims  # outermost first: a number, or the name of the member that counts
 
     @property
     def is_number(self):
@@ -88,7 +87,7 @@ def parse_definition(text):
             array = re.fullmatch(r"(\w+)((?: ?\[ ?\w+ ?\])*)", declarator.strip())
             if not array:
                 raise Unexpected(f"cannot read '{statement}'")
-            members.append(Member(array[1], full_type(declaration[1], package), re.findall(r"\w+", array[2])))
+            members.append(Member(array[1], qualified(declaration[1], package), re.findall(r"\w+", array[2])))
     return f"{package}.{struct}", members
 
 
@@ -100,7 +99,7 @@ def check_bounded(own_type, members):
         raise Unexpected("elements of no bytes can be claimed in any number")
 
 
-def full_type(name, package):
+def qualified(name, package):
     if name in NUMBER_BYTES or name == "string" or "." in name:
         return name
     return f"{package}.{name}"
