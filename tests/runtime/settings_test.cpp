@@ -1,14 +1,12 @@
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "runtime/process/settings_reader.hpp"
 #include "runtime/process/settings_writer.hpp"
+#include "tests/runtime/temporary_file.hpp"
 
 namespace floornav {
 namespace {
@@ -47,25 +45,8 @@ void visit_settings(Visitor& visit, Sample& s) {
   visit("angles_deg", s.angles_deg, Allowed{0.0, 90.0});
 }
 
-class File {
- public:
-  explicit File(const std::string& text) {
-    static int count = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("settings_test_" + std::to_string(getpid()) + "_" + std::to_string(count++) + ".yaml");
-    std::ofstream(path_, std::ios::binary) << text;
-  }
-  ~File() { std::filesystem::remove(path_); }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 Sample read(const std::string& text) {
-  const File file(text);
+  const TemporaryFile file(text);
   Sample settings;
   read_settings(file.path(), settings);
   return settings;
@@ -118,7 +99,7 @@ struct BadFile {
 class SettingsReaderRefuses : public testing::TestWithParam<BadFile> {};
 
 TEST_P(SettingsReaderRefuses, InOneLineThatNamesAllOfIt) {
-  const File file(GetParam().text);
+  const TemporaryFile file(GetParam().text);
   Sample settings;
   try {
     read_settings(file.path(), settings);
@@ -185,14 +166,14 @@ void visit_settings(Visitor& visit, Robot& s) {
 }
 
 TEST(RobotFile, LeavesTheOtherProgramsSectionsAlone) {
-  const File file("robot: {height_m: 0.5}\nplanner: {anything: 1}\n");
+  const TemporaryFile file("robot: {height_m: 0.5}\nplanner: {anything: 1}\n");
   Robot robot;
   read_robot_file(file.path(), robot);
   EXPECT_EQ(robot.robot.height_m, 0.5);
 }
 
 TEST(RobotFile, RefusesASectionThatNobodyReads) {
-  const File file("robot: {height_m: 0.5}\nplaner: {anything: 1}\n");
+  const TemporaryFile file("robot: {height_m: 0.5}\nplaner: {anything: 1}\n");
   Robot robot;
   try {
     read_robot_file(file.path(), robot);
