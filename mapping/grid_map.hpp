@@ -1,21 +1,23 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <unordered_map>
 
+#include "mapping/tile_map.hpp"
 #include "runtime/geometry/lattice.hpp"
 
 namespace floornav {
 
 enum class VertexState : std::uint8_t { kUnknown = 0, kFree = 1, kBlocked = 2 };
 
-/// The eight neighbours of a vertex, counter-clockwise from +x: neighbour k is reached by (kNeighbourX[k], kNeighbourY[k]).
+/// The eight neighbours of a vertex, counter-clockwise from +x: neighbour k is reached by (kNeighbourX[k],
+/// kNeighbourY[k]).
 inline constexpr std::array<std::int32_t, 8> kNeighbourX{1, 1, 0, -1, -1, -1, 0, 1};
 inline constexpr std::array<std::int32_t, 8> kNeighbourY{0, 1, 1, 1, 0, -1, -1, -1};
 
-/// A square of vertices as planner, viewer and messages share it (section 3.1). Vertex (i, j) has index j * kSide + i.
+/// A square of vertices as planner, viewer and messages share it (section 3.1). Vertex (i, j) has index j *
+/// kSide + i.
 struct GridTile {
   static constexpr std::int32_t kSide = 32;
   static constexpr std::int32_t kVertices = kSide * kSide;
@@ -24,19 +26,20 @@ struct GridTile {
   static constexpr float kClearanceUnit_m = 0.01F;
   static constexpr std::uint8_t kNothingAbove = 255;
 
-  std::int64_t version = 0;                          ///< map version at which it last changed
-  float origin_z_m = 0;                              ///< added to heights
+  std::int64_t version = 0;  ///< map version at which it last changed
+  float origin_z_m = 0;      ///< added to heights
   std::array<VertexState, kVertices> state{};
-  std::array<std::uint8_t, kVertices> belief{};      ///< 0..255 for 0..1, section 4.6
-  std::array<std::int16_t, kVertices> height{};      ///< kHeightUnit_m above origin_z_m
-  std::array<std::int16_t, kVertices> sigma{};       ///< kHeightUnit_m, 1 sigma of height
-  std::array<std::uint8_t, kVertices> slope{};       ///< kSlopeUnit_deg
-  std::array<std::uint8_t, kVertices> clearance{};   ///< kClearanceUnit_m of free height, kNothingAbove: open
-  std::array<std::uint8_t, kVertices> edges{};       ///< bit k: the edge to neighbour k is open, eq. (2)
-  std::array<std::int64_t, kVertices> seen_us{};     ///< utime of the last evidence, 0: never
+  std::array<std::uint8_t, kVertices> belief{};     ///< 0..255 for 0..1, section 4.6
+  std::array<std::int16_t, kVertices> height{};     ///< kHeightUnit_m above origin_z_m
+  std::array<std::int16_t, kVertices> sigma{};      ///< kHeightUnit_m, 1 sigma of height
+  std::array<std::uint8_t, kVertices> slope{};      ///< kSlopeUnit_deg
+  std::array<std::uint8_t, kVertices> clearance{};  ///< kClearanceUnit_m of free height, kNothingAbove: open
+  std::array<std::uint8_t, kVertices> edges{};      ///< bit k: the edge to neighbour k is open, eq. (2)
+  std::array<std::int64_t, kVertices> seen_us{};    ///< utime of the last evidence, 0: never
 
   static constexpr std::int32_t index_of(CellIndex cell) {
-    return (cell.iy - block_of(cell.iy, kSide) * kSide) * kSide + (cell.ix - block_of(cell.ix, kSide) * kSide);
+    return (cell.iy - block_of(cell.iy, kSide) * kSide) * kSide +
+           (cell.ix - block_of(cell.ix, kSide) * kSide);
   }
   [[nodiscard]] float height_m(std::int32_t index) const {
     return origin_z_m + kHeightUnit_m * static_cast<float>(height[static_cast<std::size_t>(index)]);
@@ -44,38 +47,15 @@ struct GridTile {
 };
 
 /// The grid-map: tiles of vertices over the local world frame, made on demand.
-class GridMap {
+class GridMap : public TileMap<GridTile> {
  public:
-  explicit GridMap(double resolution_m = 0.05) : lattice_{resolution_m} {}
+  explicit GridMap(double resolution_m = 0.05) : TileMap(resolution_m) {}
 
-  [[nodiscard]] const Lattice& lattice() const { return lattice_; }
-  [[nodiscard]] static CellIndex tile_of(CellIndex cell) {
-    return {block_of(cell.ix, GridTile::kSide), block_of(cell.iy, GridTile::kSide)};
-  }
-  [[nodiscard]] const GridTile* find(CellIndex tile) const {
-    const auto it = tiles_.find(tile);
-    return it == tiles_.end() ? nullptr : it->second.get();
-  }
-  GridTile& make(CellIndex tile) {
-    auto& slot = tiles_[tile];
-    if (!slot) slot = std::make_unique<GridTile>();
-    return *slot;
-  }
-  void erase(CellIndex tile) { tiles_.erase(tile); }
-  void clear() { tiles_.clear(); }
-  [[nodiscard]] const std::unordered_map<CellIndex, std::unique_ptr<GridTile>>& tiles() const { return tiles_; }
   /// kUnknown where there is no tile.
   [[nodiscard]] VertexState state(CellIndex cell) const {
     const GridTile* tile = find(tile_of(cell));
-    return tile ? tile->state[static_cast<std::size_t>(GridTile::index_of(cell))] : VertexState::kUnknown;
+    return tile ? tile->state[index_of(cell)] : VertexState::kUnknown;
   }
-
-  std::int32_t epoch = 0;      ///< counts pose jumps: nothing of an older epoch holds
-  std::int64_t version = 0;    ///< counts updates
-
- private:
-  Lattice lattice_;
-  std::unordered_map<CellIndex, std::unique_ptr<GridTile>> tiles_;
 };
 
 }  // namespace floornav

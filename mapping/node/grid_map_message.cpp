@@ -1,0 +1,152 @@
+#include "mapping/node/grid_map_message.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "mapping/node/map_message_size.hpp"
+
+namespace floornav {
+namespace {
+
+constexpr std::int64_t kAgeUnit_us = 100'000;
+constexpr std::int64_t kOldestAge = std::numeric_limits<std::int16_t>::max();
+
+std::int16_t age_of(std::int64_t seen_us, std::int64_t utime_us) {
+  if (seen_us == 0) return -1;
+  return static_cast<std::int16_t>(
+      std::clamp<std::int64_t>((utime_us - seen_us) / kAgeUnit_us, 0, kOldestAge));
+}
+
+grid_tile_t to_message(CellIndex index, const GridTile* tile, std::int64_t utime_us) {
+  grid_tile_t message{};
+  message.ix = index.ix;
+  message.iy = index.iy;
+  if (tile == nullptr) return message;
+  message.version = tile->version;
+  message.origin_z = tile->origin_z_m;
+  message.side = GridTile::kSide;
+  message.count = GridTile::kVertices;
+  for (const VertexState state : tile->state) message.state.push_back(static_cast<std::uint8_t>(state));
+  message.belief.assign(tile->belief.begin(), tile->belief.end());
+  message.height.assign(tile->height.begin(), tile->height.end());
+  message.sigma.assign(tile->sigma.begin(), tile->sigma.end());
+  message.slope.assign(tile->slope.begin(), tile->slope.end());
+  message.clearance.assign(tile->clearance.begin(), tile->clearance.end());
+  message.edges.assign(tile->edges.begin(), tile->edges.end());
+  for (const std::int64_t seen_us : tile->seen_us) message.age.push_back(age_of(seen_us, utime_us));
+  return message;
+}
+
+grid_map_t without_tiles(const GridMap& map, const GridMapHeader& header) {
+  grid_map_t message{};
+  message.utime = header.utime_us;
+  message.epoch = map.epoch;
+  message.version = map.version;
+  message.resolution = static_cast<float>(map.lattice().pitch_m);
+  message.step = header.step_m;
+  pose_to_arrays(header.T_world_body, message.body_pos, message.body_orientation);
+  return message;
+}
+
+void require(bool condition, const char* what) {
+  if (!condition) throw std::invalid_argument(std::string("grid map: ") + what);
+}
+
+void check(const grid_tile_t& tile, std::int64_t map_version) {
+  constexpr std::int32_t kFarthestTile = std::numeric_limits<std::int32_t>::max() / GridTile::kSide - 1;
+  require(std::abs(static_cast<std::int64_t>(tile.ix)) <= kFarthestTile &&
+              std::abs(static_cast<std::int64_t>(tile.iy)) <= kFarthestTile,
+          "tile index out of range");
+  if (tile.side == 0 && tile.count == 0) return;
+  require(tile.side == GridTile::kSide && tile.count == GridTile::kVertices, "tile of another size");
+  require(tile.version >= 0 && tile.version <= map_version, "tile newer than its map");
+  require(std::isfinite(tile.origin_z), "height that is not finite");
+  const auto full = [](const auto& array) {
+    return array.size() == static_cast<std::size_t>(GridTile::kVertices);
+  };
+  require(full(tile.state) && full(tile.belief) && full(tile.height) && full(tile.sigma) &&
+              full(tile.slope) && full(tile.clearance) && full(tile.edges) && full(tile.age),
+          "array of another size than its count");
+  require(std::ranges::all_of(tile.state, [](std::uint8_t state) { return state <= grid_tile_t::BLOCKED; }),
+          "state that does not exist");
+}
+
+void check(const grid_map_t& message) {
+  require(message.utime >= 0 && message.epoch >= 0 && message.version >= 0,
+          "negative time, epoch or version");
+  require(std::isfinite(message.resolution) && message.resolution >= 0.001F && message.resolution <= 10.0F,
+          "absurd resolution");
+  require(std::isfinite(message.step) && message.step >= 0, "absurd step");
+  for (const grid_tile_t& tile : message.tiles) check(tile, message.version);
+}
+
+void take(const grid_tile_t& message, std::int64_t utime_us, GridTile& tile) {
+  tile.version = message.version;
+  tile.origin_z_m = message.origin_z;
+  std::ranges::transform(message.state, tile.state.begin(),
+                         [](std::uint8_t s) { return static_cast<VertexState>(s); });
+  std::ranges::copy(message.belief, tile.belief.begin());
+  std::ranges::copy(message.height, tile.height.begin());
+  std::ranges::copy(message.sigma, tile.sigma.begin());
+  std::ranges::copy(message.slope, tile.slope.begin());
+  std::ranges::copy(message.clearance, tile.clearance.begin());
+  std::ranges::copy(message.edges, tile.edges.begin());
+  std::ranges::transform(message.age, tile.seen_us.begin(),
+                         [utime_us](std::int16_t age) { return age < 0 ? 0 : utime_us - age * kAgeUnit_us; });
+}
+
+}  // namespace
+
+std::vector<grid_map_t> to_messages(const GridMap& map, const std::vector<CellIndex>& tiles,
+                                    const GridMapHeader& header) {
+  std::vector<grid_map_t> messages{without_tiles(map, header)};
+  MessageSize size(static_cast<std::size_t>(messages.front().getEncodedSize()));
+  for (const CellIndex index : tiles) {
+    grid_tile_t tile = to_message(index, map.find(index), header.utime_us);
+    if (size.needs_new_message(static_cast<std::size_t>(tile.getEncodedSize())))
+      messages.push_back(without_tiles(map, header));
+    messages.back().tiles.push_back(std::move(tile));
+  }
+  for (grid_map_t& message : messages) message.n_tiles = static_cast<std::int32_t>(message.tiles.size());
+  return messages;
+}
+
+bool GridMapReceiver::restart_if_needed(const grid_map_t& message) {
+  const bool same_mapper = started_ && message.session == session_;
+  require(!same_mapper || message.epoch >= map_.epoch, "of an older epoch");
+  const double resolution_m = std::round(static_cast<double>(message.resolution) * 1e6) / 1e6;
+  if (same_mapper && message.epoch == map_.epoch && resolution_m == map_.lattice().pitch_m) return false;
+  map_ = GridMap(resolution_m);
+  session_ = message.session;
+  started_ = true;
+  return true;
+}
+
+GridMapReceiver::Change GridMapReceiver::apply(const grid_map_t& message) {
+  check(message);
+  const Pose T_world_body = pose_from_arrays(message.body_pos, message.body_orientation);
+  Change change;
+  change.restarted = restart_if_needed(message);
+  map_.epoch = message.epoch;
+  map_.version = std::max(map_.version, message.version);
+  if (message.utime >= header_.utime_us || change.restarted)
+    header_ = {message.utime, message.step, T_world_body};
+  for (const grid_tile_t& tile : message.tiles) {
+    const CellIndex index{tile.ix, tile.iy};
+    const GridTile* held = map_.find(index);
+    if (held != nullptr && held->version > tile.version && tile.side != 0) continue;
+    const bool differs = held == nullptr ? tile.side != 0 : tile.side == 0 || held->version != tile.version;
+    if (tile.side == 0) {
+      map_.erase(index);
+    } else {
+      take(tile, message.utime, map_.make(index));
+    }
+    if (differs) change.tiles.push_back(index);
+  }
+  return change;
+}
+
+}  // namespace floornav
