@@ -194,6 +194,7 @@ def harden(definition, header):
     header = substitute(r"^        // LCM support functions\.", least_wire_size(members) + r"\g<0>", header, 1,
                         "support functions")
 
+    header = substitute(r"^    int64_t msg_hash;$", "    int64_t msg_hash = 0;", header, 1, "fingerprint")
     header = patch_function(
         header, f"int {struct}::decode(const void *buf, int offset, int maxlen)",
         lambda body: substitute(r"^    return pos;\Z", "    if (pos != maxlen) return -1;\n    return pos;", body, 1,
