@@ -1,0 +1,157 @@
+#include "perception/floor_perception.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "perception/surfels.hpp"
+
+namespace floornav {
+
+namespace {
+
+/// Estimated work of a point, from the ROI to its cell.
+constexpr std::int64_t kWorkPerPoint_ns = 1500;
+constexpr int kCellsPerPiece = 512;
+
+PerceptionSettings checked(const PerceptionSettings& settings) {
+  const RoiSettings& roi = settings.roi;
+  if (!(roi.x_min_m < roi.x_max_m && roi.y_min_m < roi.y_max_m && roi.z_min_m < roi.z_max_m))
+    throw std::invalid_argument("roi: each minimum must be less than its maximum");
+  const int planes = settings.sections.x_res * settings.sections.y_res * (settings.planes.max_planes + 1);
+  if (planes > std::numeric_limits<std::int16_t>::max())
+    throw std::invalid_argument("sections and planes.max_planes allow more than 32767 planes a frame");
+  return settings;
+}
+
+}  // namespace
+
+FloorPerception::FloorPerception(const PerceptionSettings& settings, const RobotSettings& robot)
+    : settings_(checked(settings)),
+      robot_(robot),
+      grid_(settings.roi, settings.sections),
+      clipper_(settings.roi, grid_),
+      plane_finder_(settings.planes, robot),
+      tracer_(settings.roi, settings.cells, grid_),
+      memory_(static_cast<std::size_t>(grid_.count())) {}
+
+FloorEvidence FloorPerception::process(const DepthFrame& frame, const Pose& T_world_body, Parallel& parallel,
+                                       const Admission& admit) {
+  const SensorView view(frame, T_world_body);
+  section_scratch_.resize(static_cast<std::size_t>(parallel.workers()));
+  cell_scratch_.resize(static_cast<std::size_t>(parallel.workers()));
+  FloorEvidence evidence;
+  evidence.utime_us = frame.utime_us;
+  evidence.T_world_body = T_world_body;
+  evidence.T_body_sensor = frame.T_body_sensor;
+  evidence.lattice.pitch_m = settings_.cells.pitch_m;
+
+  evidence.pixels = clipper_.clip(frame, view, parallel, cloud_);
+  results_.assign(static_cast<std::size_t>(grid_.count()), {});
+  keep_.assign(cloud_.size(), 0);
+  label_.assign(cloud_.size(), kOutlier);
+  for (int row = 0; row < grid_.x_res(); ++row) {
+    const std::vector<int> sections = admit_row(row, admit);
+    for (const int section : sections) remove_section_outliers(section, parallel, evidence.pixels);
+    parallel.run(static_cast<int>(sections.size()), [&](int index, int worker) {
+      find_section_planes(sections[static_cast<std::size_t>(index)], frame.utime_us, view,
+                          section_scratch_[static_cast<std::size_t>(worker)]);
+    });
+  }
+  collect_surfels(view, evidence);
+  collect_cells(frame, view, parallel, evidence);
+  remember(view, evidence);
+  return evidence;
+}
+
+/// The row's sections that there is time for.
+std::vector<int> FloorPerception::admit_row(int row, const Admission& admit) {
+  std::vector<int> admitted;
+  for (int iy = 0; iy < grid_.y_res(); ++iy) {
+    const int section = row * grid_.y_res() + iy;
+    if (!admit(kWorkPerPoint_ns * cloud_.section_size(section))) continue;
+    results_[static_cast<std::size_t>(section)].done = true;
+    admitted.push_back(section);
+  }
+  return admitted;
+}
+
+void FloorPerception::remove_section_outliers(int section, Parallel& parallel, PixelCounts& counts) {
+  const auto begin = static_cast<std::size_t>(cloud_.section_begin(section));
+  const auto size = static_cast<std::size_t>(cloud_.section_size(section));
+  const auto part = [&](const std::vector<float>& values) { return std::span(values).subspan(begin, size); };
+  const std::span<std::uint8_t> keep = std::span(keep_).subspan(begin, size);
+  counts.outliers += remove_outliers({part(cloud_.x), part(cloud_.y), part(cloud_.z)}, settings_.outliers,
+                                     parallel, mean_m_, keep);
+  for (std::size_t i = 0; i < size; ++i)
+    if (keep[i]) label_[begin + i] = kNoPlane;
+}
+
+void FloorPerception::find_section_planes(int section, std::int64_t utime_us, const SensorView& view,
+                                          SectionScratch& scratch) {
+  Random seed(static_cast<std::uint64_t>(settings_.planes.seed) ^
+              (static_cast<std::uint64_t>(section) << 48) ^ static_cast<std::uint64_t>(utime_us));
+  const auto s = static_cast<std::size_t>(section);
+  results_[s].planes =
+      plane_finder_.find(cloud_, section, view, memory_[s].floor_normal, seed.next(), label_, scratch);
+}
+
+void FloorPerception::collect_surfels(const SensorView& view, FloorEvidence& evidence) {
+  for (int section = 0; section < grid_.count(); ++section) {
+    SectionResult& result = results_[static_cast<std::size_t>(section)];
+    result.first_surfel = static_cast<std::int16_t>(evidence.surfels.size());
+    const auto surfels = make_surfels(cloud_, section, result.planes, label_, view, robot_);
+    evidence.surfels.insert(evidence.surfels.end(), surfels.begin(), surfels.end());
+  }
+}
+
+void FloorPerception::collect_cells(const DepthFrame& frame, const SensorView& view, Parallel& parallel,
+                                    FloorEvidence& evidence) {
+  const CellWindow window(evidence.lattice, settings_.roi, view.T_world_body);
+  cell_sorter_.sort(cloud_, label_, results_, view, window, parallel, cell_points_);
+  tracer_.trace(frame, view, results_, window, sight_lines_);
+
+  std::vector<std::int32_t> seen;
+  for (std::int32_t number = 0; number < window.count(); ++number)
+    if (!cell_points_.of(number).empty() || sight_lines_.passed(number) || sight_lines_.no_return(number))
+      seen.push_back(number);
+  evidence.cells.resize(seen.size());
+  const auto significance = static_cast<float>(settings_.cells.significance_sigmas);
+  const int count = static_cast<int>(seen.size());
+  parallel.run((count + kCellsPerPiece - 1) / kCellsPerPiece, [&](int piece, int worker) {
+    for (int i = piece * kCellsPerPiece; i < std::min(count, (piece + 1) * kCellsPerPiece); ++i) {
+      const std::int32_t number = seen[static_cast<std::size_t>(i)];
+      const auto points = cell_points_.of(number);
+      CellEvidence& cell = evidence.cells[static_cast<std::size_t>(i)];
+      cell.cell = window.cell(number);
+      if (sight_lines_.passed(number))
+        cell.ray_z_m = sight_lines_.lowest_z_m[static_cast<std::size_t>(number)];
+      cell.no_return = points.empty() && sight_lines_.no_return(number);
+      if (!points.empty())
+        summarize_cell(points, evidence.surfels.size(), significance,
+                       cell_scratch_[static_cast<std::size_t>(worker)], cell);
+    }
+  });
+}
+
+void FloorPerception::remember(const SensorView& view, FloorEvidence& evidence) {
+  const double min_upright = std::cos(settings_.planes.max_floor_tilt_deg * std::numbers::pi / 180.0);
+  for (int section = 0; section < grid_.count(); ++section) {
+    const SectionResult& result = results_[static_cast<std::size_t>(section)];
+    SectionMemory& memory = memory_[static_cast<std::size_t>(section)];
+    memory.age =
+        result.done ? std::int16_t{0} : static_cast<std::int16_t>(std::min(memory.age + 1, INT16_MAX));
+    if (!result.planes.empty() && result.planes.front().dominant) {
+      const Eigen::Vector3d normal =
+          view.T_world_sensor.linear() * result.planes.front().plane.normal().cast<double>();
+      if (normal.z() >= min_upright) memory.floor_normal = normal.normalized();
+    }
+    evidence.sections.push_back({static_cast<std::int16_t>(section / grid_.y_res()),
+                                 static_cast<std::int16_t>(section % grid_.y_res()), result.done, memory.age,
+                                 cloud_.section_size(section)});
+  }
+}
+
+}  // namespace floornav

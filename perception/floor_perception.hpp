@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "perception/cell_evidence.hpp"
+#include "perception/cell_points.hpp"
+#include "perception/depth_frame.hpp"
+#include "perception/evidence.hpp"
+#include "perception/outliers.hpp"
+#include "perception/roi_cloud.hpp"
+#include "perception/section_planes.hpp"
+#include "perception/sections.hpp"
+#include "perception/settings.hpp"
+#include "perception/sight_lines.hpp"
+#include "runtime/geometry/parallel.hpp"
+#include "runtime/geometry/robot.hpp"
+
+namespace floornav {
+
+/// Asked before each section, nearest first, with an estimate of its work that is the same on every machine.
+/// False: the section is skipped and carries no evidence.
+using Admission = std::function<bool(std::int64_t work_ns)>;
+
+/// Finds the floor and whatever else is plane in depth frames of one sensor (sections 3 and 4 of the paper).
+/// Keeps nothing of the world but each section's last known floor normal, which cuts the next frame's search.
+/// The same frames give the same evidence, bit for bit, with any number of workers.
+class FloorPerception {
+ public:
+  /// Throws std::invalid_argument where the ROI is empty.
+  FloorPerception(const PerceptionSettings& settings, const RobotSettings& robot);
+
+  /// `T_world_body` is the body's pose in the local world frame at the frame's time.
+  FloorEvidence process(const DepthFrame& frame, const Pose& T_world_body, Parallel& parallel,
+                        const Admission& admit);
+
+ private:
+  struct SectionMemory {
+    Eigen::Vector3d floor_normal = Eigen::Vector3d::UnitZ();  ///< last known, local world frame
+    std::int16_t age = 0;                                     ///< frames since it was last done
+  };
+
+  std::vector<int> admit_row(int row, const Admission& admit);
+  void remove_section_outliers(int section, Parallel& parallel, PixelCounts& counts);
+  void find_section_planes(int section, std::int64_t utime_us, const SensorView& view,
+                           SectionScratch& scratch);
+  void collect_surfels(const SensorView& view, FloorEvidence& evidence);
+  void collect_cells(const DepthFrame& frame, const SensorView& view, Parallel& parallel,
+                     FloorEvidence& evidence);
+  void remember(const SensorView& view, FloorEvidence& evidence);
+
+  PerceptionSettings settings_;
+  RobotSettings robot_;
+  SectionGrid grid_;
+  RoiClipper clipper_;
+  SectionPlaneFinder plane_finder_;
+  CellSorter cell_sorter_;
+  SightLineTracer tracer_;
+  std::vector<SectionMemory> memory_;
+
+  // Of the frame in hand; kept so that a frame allocates little.
+  RoiCloud cloud_;
+  std::vector<float> mean_m_;
+  std::vector<std::uint8_t> keep_;
+  std::vector<std::int16_t> label_;
+  std::vector<SectionResult> results_;
+  std::vector<SectionScratch> section_scratch_;
+  CellPoints cell_points_;
+  SightLines sight_lines_;
+  std::vector<CellScratch> cell_scratch_;
+};
+
+}  // namespace floornav

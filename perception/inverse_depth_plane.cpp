@@ -1,0 +1,45 @@
+#include "perception/inverse_depth_plane.hpp"
+
+#include <cmath>
+
+namespace floornav {
+
+namespace {
+
+/// Twice the area of the triangle of three rays below which they determine no plane (about 7 x 7 pixels of a
+/// Kinect).
+constexpr float kMinTriangle = 2e-4F;
+/// Least deviation of the rays across their main direction, in rays at depth 1 (about one pixel).
+constexpr double kMinDeviation = 1e-3;
+
+}  // namespace
+
+std::optional<InverseDepthPlane> plane_through(const Eigen::Vector3f& p, const Eigen::Vector3f& q,
+                                               const Eigen::Vector3f& r) {
+  const Eigen::Vector3f u = q - p;
+  const Eigen::Vector3f v = r - p;
+  const float det = u.x() * v.y() - u.y() * v.x();
+  if (!(std::abs(det) >= kMinTriangle)) return std::nullopt;
+  InverseDepthPlane plane;
+  plane.a = (u.z() * v.y() - u.y() * v.z()) / det;
+  plane.b = (u.x() * v.z() - u.z() * v.x()) / det;
+  plane.c = p.z() - plane.a * p.x() - plane.b * p.y();
+  return plane;
+}
+
+std::optional<InverseDepthPlane> PlaneFit::solve() const {
+  if (!(w_ > 0.0)) return std::nullopt;
+  const double mx = x_ / w_, my = y_ / w_, mq = q_ / w_;
+  const double vxx = xx_ / w_ - mx * mx, vxy = xy_ / w_ - mx * my, vyy = yy_ / w_ - my * my;
+  const double det = vxx * vyy - vxy * vxy;
+  const double trace = vxx + vyy;
+  // det / trace is at most the smaller eigenvalue of the rays' covariance, and at least half of it.
+  if (!(trace > 0.0 && det > kMinDeviation * kMinDeviation * trace)) return std::nullopt;
+  const double vxq = xq_ / w_ - mx * mq, vyq = yq_ / w_ - my * mq;
+  const double a = (vxq * vyy - vyq * vxy) / det;
+  const double b = (vyq * vxx - vxq * vxy) / det;
+  return InverseDepthPlane{static_cast<float>(a), static_cast<float>(b),
+                           static_cast<float>(mq - a * mx - b * my)};
+}
+
+}  // namespace floornav

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+namespace floornav {
+
+/// A plane seen by the sensor. Along the ray (ray_x, ray_y, 1) its inverse depth is a ray_x + b ray_y + c:
+/// linear in what the sensor measures, so that least squares in inverse depth (disparity) is the most likely
+/// plane at every range.
+struct InverseDepthPlane {
+  float a = 0.0F;  ///< 1/m
+  float b = 0.0F;  ///< 1/m
+  float c = 0.0F;  ///< 1/m
+
+  [[nodiscard]] float inverse_depth(float ray_x, float ray_y) const { return a * ray_x + b * ray_y + c; }
+  [[nodiscard]] Eigen::Vector3f coefficients() const { return {a, b, c}; }
+  /// Unit normal in the sensor frame, towards the sensor.
+  [[nodiscard]] Eigen::Vector3f normal() const { return -coefficients().normalized(); }
+  /// Distance of the sensor from the plane, m.
+  [[nodiscard]] float distance_m() const { return 1.0F / coefficients().norm(); }
+};
+
+/// The plane through three measurements; nothing where their rays are almost in one plane.
+std::optional<InverseDepthPlane> plane_through(
+    const Eigen::Vector3f& p, const Eigen::Vector3f& q,
+    const Eigen::Vector3f& r);  // each: ray_x, ray_y, inverse depth
+
+/// Weighted least squares of inverse depth over the ray.
+class PlaneFit {
+ public:
+  void add(float ray_x, float ray_y, float inverse_depth, float weight) {
+    const double w = static_cast<double>(weight);
+    const double x = static_cast<double>(ray_x), y = static_cast<double>(ray_y),
+                 q = static_cast<double>(inverse_depth);
+    w_ += w, x_ += w * x, y_ += w * y, q_ += w * q;
+    xx_ += w * x * x, xy_ += w * x * y, yy_ += w * y * y, xq_ += w * x * q, yq_ += w * y * q;
+  }
+  /// Nothing where the rays do not span a plane.
+  [[nodiscard]] std::optional<InverseDepthPlane> solve() const;
+
+ private:
+  double w_ = 0, x_ = 0, y_ = 0, q_ = 0, xx_ = 0, xy_ = 0, yy_ = 0, xq_ = 0, yq_ = 0;
+};
+
+}  // namespace floornav

@@ -1,0 +1,91 @@
+#include "perception/neighbor_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <nanoflann.hpp>
+
+namespace floornav {
+
+namespace {
+
+constexpr std::size_t kMaxNeighbors = 64;
+constexpr std::size_t kLeafSize = 16;
+constexpr int kPointsPerPiece = 2048;
+
+/// nanoflann's access to the points.
+struct TreePoints {
+  const PointsView& points;
+  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
+  [[nodiscard]] float kdtree_get_pt(std::uint32_t index, std::size_t dimension) const {
+    return dimension == 0 ? points.x[index] : dimension == 1 ? points.y[index] : points.z[index];
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, TreePoints>, TreePoints,
+                                                 3, std::uint32_t>;
+
+/// The smallest squared distances in ascending order. The search ends once all of them are zero: among many
+/// identical points a tree would otherwise visit every one.
+class NearestDistances {
+ public:
+  explicit NearestDistances(std::size_t capacity) : capacity_(capacity) {
+    squared_[capacity_ - 1] = std::numeric_limits<float>::max();
+  }
+  bool addPoint(float squared, std::uint32_t) {
+    std::size_t i = std::min(count_, capacity_ - 1);
+    for (; i > 0 && squared_[i - 1] > squared; --i) squared_[i] = squared_[i - 1];
+    squared_[i] = squared;
+    count_ = std::min(count_ + 1, capacity_);
+    return worstDist() > 0.0F;
+  }
+  [[nodiscard]] float worstDist() const { return squared_[capacity_ - 1]; }
+  [[nodiscard]] bool full() const { return count_ == capacity_; }
+  [[nodiscard]] std::size_t size() const { return count_; }
+
+  /// Mean of all but the first, which is the point itself.
+  [[nodiscard]] float mean_of_others() const {
+    float sum = 0.0F;
+    for (std::size_t i = 1; i < count_; ++i) sum += std::sqrt(squared_[i]);
+    return sum / static_cast<float>(count_ - 1);
+  }
+
+ private:
+  std::array<float, kMaxNeighbors + 1> squared_;
+  std::size_t capacity_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+void mean_neighbor_distances(const PointsView& points, int neighbors, Parallel& parallel,
+                             std::span<float> mean_m) {
+  if (points.size() < 2) {
+    std::fill(mean_m.begin(), mean_m.end(), 0.0F);
+    return;
+  }
+  const std::size_t others =
+      std::min({static_cast<std::size_t>(neighbors), points.size() - 1, kMaxNeighbors});
+  const TreePoints tree_points{points};
+  const Tree tree(3, tree_points, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
+  const int count = static_cast<int>(points.size());
+  parallel.run((count + kPointsPerPiece - 1) / kPointsPerPiece, [&](int piece, int) {
+    const int end = std::min(count, (piece + 1) * kPointsPerPiece);
+    for (int i = piece * kPointsPerPiece; i < end; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      const std::array<float, 3> query{points.x[index], points.y[index], points.z[index]};
+      NearestDistances nearest(others + 1);
+      tree.findNeighbors(nearest, query.data(), nanoflann::SearchParams());
+      mean_m[index] = nearest.mean_of_others();
+    }
+  });
+}
+
+}  // namespace floornav

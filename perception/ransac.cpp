@@ -1,0 +1,119 @@
+#include "perception/ransac.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floornav {
+
+namespace {
+
+constexpr std::size_t kSampleSize = 2048;
+constexpr int kAttemptsPerHypothesis = 8;
+constexpr float kMissProbability = 0.01F;
+constexpr int kLocalRefinements = 2;
+constexpr int kFinalRefinements = 4;
+
+struct Score {
+  float gain = 0.0F;     ///< what the robust cost of the sample falls by
+  float inliers = 0.0F;  ///< share of the sample
+};
+
+Score score_of(const PlanePool& sample, const InverseDepthPlane& plane, float threshold) {
+  const float limit = threshold * threshold;
+  float gain = 0.0F;
+  int inliers = 0;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const float r = sample.residual(i, plane);
+    const float left = limit - r * r;
+    gain += std::max(left, 0.0F);
+    inliers += left > 0.0F ? 1 : 0;
+  }
+  return {gain, static_cast<float>(inliers) / static_cast<float>(sample.size())};
+}
+
+/// One point of each of equal pieces of the pool, so that the sample covers the section evenly.
+void draw_sample(const PlanePool& pool, Random& random, PlanePool& sample) {
+  sample.clear();
+  const std::size_t count = std::min(kSampleSize, pool.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t begin = i * pool.size() / count;
+    const std::size_t end = (i + 1) * pool.size() / count;
+    const std::size_t p = begin + random.below(end - begin);
+    sample.add(pool.ray_x[p], pool.ray_y[p], pool.inverse_depth[p], pool.certainty[p], pool.point[p]);
+  }
+}
+
+std::optional<InverseDepthPlane> hypothesis(const PlanePool& sample, Random& random) {
+  const auto draw = [&] {
+    const std::size_t i = random.below(sample.size());
+    return Eigen::Vector3f(sample.ray_x[i], sample.ray_y[i], sample.inverse_depth[i]);
+  };
+  const Eigen::Vector3f p = draw();
+  const Eigen::Vector3f q = draw();
+  const Eigen::Vector3f r = draw();
+  return plane_through(p, q, r);
+}
+
+/// Number of hypotheses after which one of inliers alone was likely among them.
+float hypotheses_needed(float inlier_share) {
+  const float all_inliers = inlier_share * inlier_share * inlier_share;
+  if (all_inliers >= 1.0F) return 1.0F;
+  return std::log(kMissProbability) / std::log1p(-all_inliers);
+}
+
+struct Candidate {
+  InverseDepthPlane plane;
+  Score score;
+};
+
+Candidate refined_on_sample(const PlanePool& sample, const PlaneQuery& query, Candidate best) {
+  for (int i = 0; i < kLocalRefinements; ++i) {
+    const auto plane = refine(sample, best.plane, query.threshold_sigmas);
+    if (!plane || !query.admits(*plane)) break;
+    const Score score = score_of(sample, *plane, query.threshold_sigmas);
+    if (score.gain <= best.score.gain) break;
+    best = {*plane, score};
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<InverseDepthPlane> refine(const PlanePool& pool, const InverseDepthPlane& plane,
+                                        float threshold_sigmas) {
+  PlaneFit fit;
+  for (std::size_t i = 0; i < pool.size(); ++i) {
+    if (std::abs(pool.residual(i, plane)) > threshold_sigmas) continue;
+    fit.add(pool.ray_x[i], pool.ray_y[i], pool.inverse_depth[i], pool.certainty[i] * pool.certainty[i]);
+  }
+  return fit.solve();
+}
+
+std::optional<InverseDepthPlane> find_plane(const PlanePool& pool, const PlaneQuery& query, Random& random,
+                                            RansacScratch& scratch) {
+  if (pool.size() < 3) return std::nullopt;
+  draw_sample(pool, random, scratch.sample);
+  std::optional<Candidate> best;
+  float needed = static_cast<float>(query.max_hypotheses);
+  int scored = 0;
+  for (int attempt = 0; attempt < kAttemptsPerHypothesis * query.max_hypotheses; ++attempt) {
+    if (static_cast<float>(scored) >= needed) break;
+    const auto plane = hypothesis(scratch.sample, random);
+    if (!plane || !query.admits(*plane)) continue;
+    const Score score = score_of(scratch.sample, *plane, query.threshold_sigmas);
+    ++scored;
+    if (best && score.gain <= best->score.gain) continue;
+    best = refined_on_sample(scratch.sample, query, {*plane, score});
+    needed = std::min(needed, hypotheses_needed(best->score.inliers));
+  }
+  if (!best) return std::nullopt;
+  InverseDepthPlane plane = best->plane;
+  for (int i = 0; i < kFinalRefinements; ++i) {
+    const auto refined = refine(pool, plane, query.threshold_sigmas);
+    if (!refined || !query.admits(*refined)) break;
+    plane = *refined;
+  }
+  return plane;
+}
+
+}  // namespace floornav

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "perception/inverse_depth_plane.hpp"
+#include "perception/plane_pool.hpp"
+#include "perception/random.hpp"
+
+namespace floornav {
+
+/// What plane is wanted (section 4.5).
+struct PlaneQuery {
+  float threshold_sigmas = 2.5F;  ///< alpha
+  int max_hypotheses = 200;
+  /// In the sensor frame: only planes whose normal is within the tolerance of it. Nothing: any inclination.
+  std::optional<Eigen::Vector3f> expected_normal;
+  float cos_tolerance = 0.0F;  ///< cosine of E
+
+  [[nodiscard]] bool admits(const InverseDepthPlane& plane) const {
+    return !expected_normal || plane.normal().dot(*expected_normal) >= cos_tolerance;
+  }
+};
+
+/// Scratch memory of find_plane.
+struct RansacScratch {
+  PlanePool sample;
+};
+
+/// The plane that most points of the pool support: RANSAC with a robust cost (MSAC: the sum of squared
+/// residuals, each at most the threshold's) in disparity space, scored on a sample of the pool, each new best
+/// hypothesis refined on its inliers, the last one on all of the pool's. Nothing where no admitted plane was
+/// found.
+std::optional<InverseDepthPlane> find_plane(const PlanePool& pool, const PlaneQuery& query, Random& random,
+                                            RansacScratch& scratch);
+
+/// Weighted least squares on the points within `threshold_sigmas` of `plane`.
+std::optional<InverseDepthPlane> refine(const PlanePool& pool, const InverseDepthPlane& plane,
+                                        float threshold_sigmas);
+
+}  // namespace floornav

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "perception/plane_pool.hpp"
+#include "perception/ransac.hpp"
+#include "perception/reach.hpp"
+#include "perception/roi_cloud.hpp"
+#include "perception/sensor_view.hpp"
+#include "perception/settings.hpp"
+
+namespace floornav {
+
+/// Labels of points that are on no plane.
+inline constexpr std::int16_t kNoPlane = -1;     ///< seen, belongs to no plane
+inline constexpr std::int16_t kPlaneNoise = -2;  ///< just off a plane that owns its surroundings
+inline constexpr std::int16_t kOutlier = -3;     ///< removed by eq. (6)
+
+struct SectionPlane {
+  InverseDepthPlane plane;
+  bool dominant = false;  ///< the section's floor: first pass
+};
+
+/// Scratch memory of one worker.
+struct SectionScratch {
+  PlanePool pool;
+  PlanePool floor_pool;
+  RansacScratch ransac;
+  std::vector<std::int32_t> block_points;   ///< points of the section in each block of pixels
+  std::vector<std::int32_t> block_inliers;  ///< of the plane in hand
+};
+
+/// Recursive RANSAC of one section (section 4.6.1).
+class SectionPlaneFinder {
+ public:
+  SectionPlaneFinder(const PlaneSettings& settings, const RobotSettings& robot);
+
+  /// Finds the section's planes: first the floor, near `floor_normal_world` (its last known normal) and where
+  /// the robot can come to; then planes of any inclination among the points left over, until too few are left
+  /// or the recursion's limit. `label` (of the whole cloud; kOutlier where a point is removed already) gets
+  /// each point's index into the result.
+  std::vector<SectionPlane> find(const RoiCloud& cloud, int section, const SensorView& view,
+                                 const Eigen::Vector3d& floor_normal_world, std::uint64_t seed,
+                                 std::span<std::int16_t> label, SectionScratch& scratch) const;
+
+ private:
+  struct Search;
+
+  PlaneSettings settings_;
+  Reach reach_;
+};
+
+}  // namespace floornav
