@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "floornav/health_t.hpp"
 #include "runtime/process/budget.hpp"
@@ -17,13 +19,22 @@ class Node {
   virtual ~Node() = default;
 
   [[nodiscard]] virtual std::string name() const = 0;
+  /// The channels that it publishes. In replay the log's own messages on them are left out; live, another
+  /// publisher on them is told in HEALTH.
+  [[nodiscard]] virtual std::vector<std::string> outputs() const { return {}; }
   /// Declares the inputs; their handlers only store.
   virtual void subscribe(Inbox& inbox) = 0;
-  /// Does one piece of work, a few milliseconds at most. True: there is more to do.
+  /// Does one piece of work, a few milliseconds at most. True: there is more to do. Called after messages and
+  /// ticks, and again as long as it says so.
   virtual bool step(Micros now, Budget& budget, Outbox& out) = 0;
   /// Called every tick_period(): time-outs, periodic messages.
   virtual void tick(Micros now, Outbox& out) = 0;
   [[nodiscard]] virtual Micros tick_period() const { return std::chrono::milliseconds(100); }
+  /// Live: how long the steps between two rests may take together, for their Budget; nothing: as long as they
+  /// like.
+  [[nodiscard]] virtual std::optional<Micros> deadline() const { return std::nullopt; }
+  /// The process ends: the last thing that it has to say.
+  virtual void stop(Micros /*now*/, Outbox& /*out*/) {}
   /// Adds the node's own state, reason, latencies and drops.
   virtual void report(health_t& health) const = 0;
 };
