@@ -83,8 +83,8 @@ class NibbleReader {
   std::uint32_t read() {
     if (bits_ < kLongestChain) refill();
     const auto length = static_cast<std::uint32_t>(std::countr_zero(~pending_ & kChainBits)) + 1;
-    if (length > bits_) throw CorruptDepth("depth code ends in the middle");
     if (length > kLongestChain) throw CorruptDepth("depth code has a number that is too long");
+    if (length > bits_) throw CorruptDepth("depth code ends in the middle");
     const auto chain = static_cast<std::uint32_t>(pending_ & ((std::uint64_t{1} << length) - 1));
     // One comparison for "of several nibbles, the last is 0": how long chains are is hard to predict.
     if ((chain >> (length - 4)) < static_cast<std::uint32_t>(length > 4))

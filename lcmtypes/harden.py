@@ -69,7 +69,7 @@ class Member:
 def parse_definition(text):
     """(package.struct, members) of a .lcm file with one struct."""
     text = re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.S)
-    match = re.fullmatch(r"\s*package\s+(\w+)\s*;\s*struct\s+(\w+)\s*\{(.*)\}\s*", text, flags=re.S)
+    match = re.fullmatch(r"\s*package\s+(\w+)\s*;\s*struct\s+(\w+)\s*\{([^{}]*)\}\s*", text, flags=re.S)
     if not match:
         raise Unexpected("not one package with one struct")
     package, struct, body = match.groups()

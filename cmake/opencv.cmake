@@ -1,0 +1,11 @@
+# OpenCV's component packages bring no OpenCVConfig.cmake: opencv::core, opencv::imgproc and opencv::imgcodecs.
+if(TARGET opencv::core)
+  return()
+endif()
+find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
+foreach(component core imgproc imgcodecs)
+  find_library(OPENCV_${component} opencv_${component} REQUIRED)
+  add_library(opencv::${component} INTERFACE IMPORTED)
+  target_include_directories(opencv::${component} SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})
+  target_link_libraries(opencv::${component} INTERFACE ${OPENCV_${component}})
+endforeach()

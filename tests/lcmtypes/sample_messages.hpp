@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "floornav/depth_cloud_t.hpp"
+#include "floornav/drop_t.hpp"
+#include "floornav/goal_t.hpp"
+#include "floornav/grid_map_t.hpp"
+#include "floornav/grid_tile_t.hpp"
+#include "floornav/health_t.hpp"
+#include "floornav/latency_t.hpp"
+#include "floornav/map_request_t.hpp"
+#include "floornav/path_point_t.hpp"
+#include "floornav/path_t.hpp"
+#include "floornav/pose_t.hpp"
+#include "floornav/rate_t.hpp"
+#include "floornav/rigid_transform_t.hpp"
+#include "floornav/section_t.hpp"
+#include "floornav/surfel_cell_t.hpp"
+#include "floornav/surfel_t.hpp"
+#include "floornav/surfels_t.hpp"
+#include "floornav/terrain_map_t.hpp"
+#include "floornav/terrain_tile_t.hpp"
+
+namespace floornav {
+
+/// Every type of lcmtypes/.
+using MessageTypes = std::tuple<depth_cloud_t, drop_t, goal_t, grid_map_t, grid_tile_t, health_t, latency_t,
+                                map_request_t, path_point_t, path_t, pose_t, rate_t, rigid_transform_t,
+                                section_t, surfel_cell_t, surfel_t, surfels_t, terrain_map_t, terrain_tile_t>;
+
+/// A message of a likely kind, none of its arrays empty; the same for the same seed.
+template <class Message>
+Message sample_message(std::uint32_t seed);
+
+/// A message as it goes over the wire; empty where it does not encode.
+template <class Message>
+std::vector<std::uint8_t> encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  const auto size = static_cast<int>(bytes.size());
+  if (message.encode(bytes.data(), 0, size) != size) bytes.clear();
+  return bytes;
+}
+
+/// Decodes bytes that lie alone in memory, so that a sanitizer sees every read outside them.
+template <class Message>
+bool decodes(Message& message, const std::vector<std::uint8_t>& bytes) {
+  const auto size = static_cast<int>(bytes.size());
+  return message.decode(bytes.data(), 0, size) == size;
+}
+
+}  // namespace floornav
