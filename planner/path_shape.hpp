@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "mapping/grid_map.hpp"
+#include "planner/plan.hpp"
+#include "planner/planning_grid.hpp"
+
+namespace floornav {
+
+/// The part of a route that may be driven now, as points without speeds.
+struct DrivablePath {
+  std::vector<PathPoint> points;
+  double length_m = 0;
+  bool whole = false;  ///< it leads to the route's end
+};
+
+/// Follows the route as far as the robot's circle touches known free (or assumed) floor only. Points lie no
+/// more than `spacing_m` apart. `z_m`: height of the floor where the map knows none before the first point.
+DrivablePath drivable_path(const PlanningGrid& grid, const GridMap& map, const Route& route, double spacing_m,
+                           double z_m);
+
+}  // namespace floornav

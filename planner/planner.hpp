@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mapping/grid_map.hpp"
+#include "planner/plan.hpp"
+#include "planner/planning_grid.hpp"
+#include "planner/search/a_star.hpp"
+#include "planner/settings.hpp"
+#include "runtime/geometry/pose.hpp"
+#include "runtime/geometry/robot.hpp"
+
+namespace floornav {
+
+/// Plans ways across the grid-map: a search over the cells where the robot's circle touches nothing blocked,
+/// unknown ones at a cost, of which the part over known floor is published. What it keeps between calls only
+/// saves time, but for the floor assumed around the first pose of each epoch of the map. Follows one map:
+/// forget() before another.
+class Planner {
+ public:
+  Planner(const PlannerSettings& settings, const RobotSettings& robot)
+      : settings_(settings), robot_(robot), grid_(settings, robot) {}
+
+  /// A plan from the pose to the goal. `previous`, where given, is the plan that the robot follows: its route
+  /// is kept unless it is shut, ends elsewhere, or is clearly dearer (keep_path_ratio). `interrupt` may end
+  /// the search.
+  Plan plan(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Plan* previous = nullptr,
+            const Interrupt& interrupt = {});
+
+  /// Whether a plan may still be followed: the robot is on its route, and the map leaves that open.
+  bool holds(const Plan& plan, const GridMap& map, const Pose& T_world_body, const Goal& goal);
+
+  /// Another map follows, or the robot was carried elsewhere.
+  void forget();
+
+ private:
+  void bring_up_to_date(const GridMap& map, const Pose& T_world_body, const Goal& goal);
+  [[nodiscard]] std::optional<GridCell> start_near(GridPoint here) const;
+  [[nodiscard]] std::optional<GridCell> nearest_to_goal(const Goal& goal, bool settled) const;
+  Plan search(const Pose& T_world_body, const Goal& goal, const Plan* previous, const Interrupt& interrupt);
+  std::vector<GridPoint> route_to(GridPoint here, GridCell target, const Goal& goal);
+  [[nodiscard]] std::optional<std::vector<GridPoint>> route_ahead(const Plan& plan, GridPoint here) const;
+
+  PlannerSettings settings_;
+  RobotSettings robot_;
+  PlanningGrid grid_;
+  AStar a_star_;
+  std::vector<GridCell> cells_;  ///< of the last search's path
+  std::optional<AssumedFloor> assumed_;
+  std::int32_t epoch_ = 0;
+};
+
+}  // namespace floornav
