@@ -23,7 +23,7 @@ ReplayExecutor::ReplayExecutor(const std::vector<Node*>& nodes, Sink sink, Repla
     : sink_(std::move(sink)), options_(options) {
   for (Node* node : nodes) {
     if (node->tick_period() <= Micros(0)) throw std::logic_error(node->name() + ": ticks without a period");
-    node->subscribe(seats_.emplace_back(*node).inbox);
+    node->subscribe(seats_.emplace_back(*node, options_.work_budget_ns).inbox);
   }
 }
 
@@ -94,7 +94,6 @@ void ReplayExecutor::settle(Micros now) {
 }
 
 bool ReplayExecutor::step(Seat& seat, Micros now) {
-  if (seat.resting) seat.budget = WorkBudget(options_.work_budget_ns);
   bool more = false;
   const auto took = time_of([&] { more = seat.node->step(now, seat.budget, seat.out); });
   seat.timing.step += took;

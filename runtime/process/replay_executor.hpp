@@ -16,7 +16,7 @@
 namespace floornav {
 
 struct ReplayOptions {
-  /// What a node may spend between two rests, in ns of estimated work.
+  /// What a node may spend on a frame, in ns of estimated work.
   std::int64_t work_budget_ns = std::numeric_limits<std::int64_t>::max();
   /// Virtual time after the log's last event, so that what waits can time out.
   Micros run_on = std::chrono::seconds(1);
@@ -64,13 +64,14 @@ class ReplayExecutor {
 
  private:
   struct Seat {
-    explicit Seat(Node& its_node) : node(&its_node), out(fixed_identity(its_node.name())) {}
+    Seat(Node& its_node, std::int64_t work_ns)
+        : node(&its_node), out(fixed_identity(its_node.name())), budget(work_ns) {}
     Node* node;
     Inbox inbox;
     Outbox out;
     Micros next_tick{0};
     NodeTiming timing;
-    WorkBudget budget{0};
+    WorkBudget budget;
     bool resting = true;
     bool published = false;            ///< since it rested
     std::chrono::nanoseconds busy{0};  ///< since it rested

@@ -108,25 +108,39 @@ TEST(ReplayExecutor, LeavesOutTheLogsMessagesOnTheNodesOwnChannels) {
   EXPECT_THAT(published.lines, ElementsAre("OUT 101 node 1 @1001", "END 101 reader 1 @1001"));
 }
 
-TEST(ReplayExecutor, CountsWorkAgainstTheBudgetAnewForEachRun) {
+TEST(ReplayExecutor, GivesEachFrameTheBudgetAskedFor) {
   EchoNode node("node", "IN", "OUT");
-  node.work_ns = 400;
+  node.work_ns = 1000;
   Published published;
   ReplayExecutor executor({&node}, published.sink(), {.work_budget_ns = 1000});
-  for (int i = 1; i <= 3; ++i) executor.inject(encoded("IN", goal_of(1, i, i)));
-  executor.deliver(goal_event(1000, 4));
-  EXPECT_EQ(node.refused, 0);  // each message is a run of its own
+  for (int seq = 1; seq <= 3; ++seq) executor.deliver(goal_event(1000 + seq, seq));
+  EXPECT_EQ(node.refused, 0);
   node.work_ns = 1001;
-  executor.deliver(goal_event(1001, 5));
+  executor.deliver(goal_event(1010, 5));
   EXPECT_EQ(node.refused, 1);
 }
 
-TEST(WorkBudget, RefusesWhatDoesNotFit) {
+TEST(WorkBudget, RefusesWhatDoesNotFitIntoTheFrame) {
   WorkBudget budget(1000);
+  EXPECT_TRUE(budget.spend(1'000'000));  // no frame has begun
+  budget.begin(Micros(0));
   EXPECT_TRUE(budget.spend(600));
   EXPECT_FALSE(budget.spend(500));
   EXPECT_TRUE(budget.spend(400));
   EXPECT_FALSE(budget.spend(1));
+  budget.begin(Micros(0));
+  EXPECT_TRUE(budget.spend(1000));
+}
+
+TEST(DeadlineBudget, RefusesWhatWouldBeLate) {
+  DeadlineBudget budget(std::chrono::seconds(100));
+  EXPECT_TRUE(budget.spend(0));  // no frame has begun
+  const auto now = std::chrono::duration_cast<Micros>(std::chrono::steady_clock::now().time_since_epoch());
+  budget.begin(now);
+  EXPECT_TRUE(budget.spend(1));
+  EXPECT_FALSE(budget.spend(100'000'000'000));
+  budget.begin(now - std::chrono::seconds(101));
+  EXPECT_FALSE(budget.spend(0));
 }
 
 TEST(ReplayExecutor, CountsWhatItDrops) {

@@ -50,6 +50,7 @@ class EchoNode : public Node {
     goal_t answer{};
     answer.id = waiting_.front();
     waiting_.pop_front();
+    budget.begin(now);
     if (budget.spend(work_ns)) {
       note("step " + std::to_string(answer.id), now);
       out.publish(output_, answer);
