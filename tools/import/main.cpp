@@ -1,0 +1,171 @@
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "tools/import/import.hpp"
+#include "tools/progress/progress.hpp"
+
+namespace {
+
+using namespace floornav;
+
+volatile std::sig_atomic_t stop_asked = 0;
+
+/// The options that every sub-command has.
+struct CommonOptions {
+  std::string log;
+  std::string sensor = "kinect";
+  std::string intrinsics;
+};
+
+void add_common(CLI::App& command, CommonOptions& options, bool needs_intrinsics) {
+  command.add_option("-o,--output", options.log, "The LCM log to write")->required()->type_name("LOG");
+  command.add_option("--sensor", options.sensor, "Whose channel and noise model the clouds get")
+      ->check(CLI::IsMember({"kinect", "bumblebee"}))
+      ->capture_default_str();
+  auto* const intrinsics =
+      command.add_option("--intrinsics", options.intrinsics, "Of the depth camera, in pixels");
+  intrinsics->type_name("fx,fy,cx,cy")->required(needs_intrinsics);
+}
+
+void add_mounting(CLI::App& command, FixedMounting& mounting) {
+  command.add_option("--height", mounting.height_m, "Of the camera above the floor, m")
+      ->required()
+      ->check(CLI::Range(0.01, 10.0))
+      ->type_name("H");
+  command.add_option("--pitch", mounting.pitch_deg, "Of the camera, degrees, positive looks down")
+      ->required()
+      ->check(CLI::Range(-90.0, 90.0))
+      ->type_name("P");
+  command.add_option("--roll", mounting.roll_deg, "Of the camera, degrees, positive leans to the right")
+      ->required()
+      ->check(CLI::Range(-180.0, 180.0))
+      ->type_name("R");
+  command
+      .add_option(
+          "--spacing", mounting.spacing_m,
+          "Between the frames' places in the local frame, m: more than the region of interest is long")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->capture_default_str()
+      ->type_name("M");
+}
+
+void add_depth_scale(CLI::App& command, double& counts_per_m) {
+  command.add_option("--depth-scale", counts_per_m, "Counts of a pixel per metre")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str()
+      ->type_name("S");
+}
+
+ImportReport run(const CommonOptions& options,
+                 const std::function<ImportReport(const ImportTarget&)>& import) {
+  Progress progress("frames");
+  const ImportTarget target{options.log, sensor_model(options.sensor), [&](std::int64_t done, std::int64_t total) {
+                              if (stop_asked) throw std::runtime_error("interrupted, nothing written");
+                              progress.at(done, total);
+                            }};
+  return import(target);
+}
+
+void tell(const ImportReport& report, const CommonOptions& options) {
+  for (const auto& note : report.notes) fmt::print("{}\n", note);
+  fmt::print("{}: {} clouds and {} poses of {:.1f} s\n", options.log, report.clouds, report.poses,
+             static_cast<double>(report.span_us) / 1e6);
+}
+
+constexpr const char* kTumExample = R"(
+A body on the plane z = floor-z stands under the camera and has its heading. The times of clouds and
+poses are the recording's own.
+
+Example:
+  floornav-import tum rgbd_dataset_freiburg1_rpy -o rpy.lcm --intrinsics 517.3,516.5,318.6,255.3 --depth-scale 5000)";
+
+constexpr const char* kDepthExample = R"(
+Nothing is known of where the robot was, so each frame makes a map of its own: frame k stands at
+x = spacing (k mod 10), y = -spacing (k div 10) in the local frame, 0.1 s after the one before.
+
+Example:
+  floornav-import depth pepper/depth -o pepper.lcm --intrinsics 381.4,381.4,321.7,236.9 --depth-scale 1000 \
+                  --height 0.63 --pitch 20 --roll -11)";
+
+constexpr const char* kPcdExample = R"(
+Takes organised clouds (ascii, binary, binary_compressed) in the sensor's frame: x right, y down, z forward.
+Without --intrinsics the camera is found from each cloud; one whose points are not on a pinhole camera's rays
+is refused. Frames are placed as by "depth".
+
+Example:
+  floornav-import pcd five_people.pcd office1.pcd -o pcl.lcm --height 1.29 --pitch 4.7 --roll 0)";
+
+int run_program(int argc, char** argv) {
+  CLI::App app("Makes an LCM log of depth clouds and poses from recordings in other forms");
+  app.name("floornav-import");
+  app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return fmt::format("floornav-import: {} (see --help)\n", error.what());
+  });
+  app.footer("Sub-commands have their own --help with examples.");
+  CommonOptions options;
+
+  TumImport tum;
+  CLI::App& tum_command = *app.add_subcommand("tum", "A TUM RGB-D folder: depth.txt and groundtruth.txt");
+  tum_command.add_option("DIR", tum.folder, "The folder")->required();
+  add_common(tum_command, options, true);
+  add_depth_scale(tum_command, tum.counts_per_m);
+  tum_command.add_option("--floor-z", tum.floor_z_m, "Height of the floor in the ground truth's world, m")
+      ->check(CLI::Range(-100.0, 100.0))
+      ->capture_default_str()
+      ->type_name("Z");
+  tum_command.footer(kTumExample);
+
+  DepthImport depth;
+  CLI::App& depth_command = *app.add_subcommand("depth", "Folders of 16-bit depth images without poses");
+  depth_command.add_option("DIR", depth.folders, "The folders; their images are taken by name")->required();
+  add_common(depth_command, options, true);
+  add_depth_scale(depth_command, depth.counts_per_m);
+  add_mounting(depth_command, depth.mounting);
+  depth_command.footer(kDepthExample);
+
+  PcdImport pcd;
+  CLI::App& pcd_command = *app.add_subcommand("pcd", "Organised .pcd clouds without poses");
+  pcd_command.add_option("FILE", pcd.files, "The clouds, in this order")->required();
+  add_common(pcd_command, options, false);
+  add_mounting(pcd_command, pcd.mounting);
+  pcd_command.footer(kPcdExample);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
+  }
+
+  ImportReport report;
+  if (tum_command) {
+    tum.camera = parse_intrinsics(options.intrinsics);
+    report = run(options, [&](const ImportTarget& target) { return import_tum(tum, target); });
+  } else if (depth_command) {
+    depth.camera = parse_intrinsics(options.intrinsics);
+    report = run(options, [&](const ImportTarget& target) { return import_depth(depth, target); });
+  } else {
+    if (!options.intrinsics.empty()) pcd.camera = parse_intrinsics(options.intrinsics);
+    report = run(options, [&](const ImportTarget& target) { return import_pcd(pcd, target); });
+  }
+  tell(report, options);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { stop_asked = 1; });
+  try {
+    return run_program(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "floornav-import: {}\n", error.what());
+    return 1;
+  }
+}

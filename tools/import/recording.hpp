@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "runtime/geometry/pinhole.hpp"
+#include "runtime/geometry/pose.hpp"
+#include "runtime/process/log_writer.hpp"
+#include "tools/import/depth_image.hpp"
+#include "tools/import/sensor_model.hpp"
+
+namespace floornav {
+
+/// A log of clouds and poses in the making. It appears under its name when finish() is called and not before;
+/// without it nothing stays behind.
+class Recording {
+ public:
+  /// Throws LogError where the file cannot be made.
+  Recording(std::filesystem::path file, const SensorModel& sensor);
+  ~Recording();
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+
+  /// The body in the local frame. A time that is not after the last pose's is left out.
+  void pose(std::int64_t utime_us, const Pose& T_world_body);
+  /// One frame; `scale_m` is m a count. Throws std::runtime_error where its size is not the first one's, or
+  /// the camera does not go with it.
+  void cloud(std::int64_t utime_us, const DepthImage& image, const Pinhole& camera, double scale_m,
+             const Pose& T_body_sensor);
+  void finish();
+
+  [[nodiscard]] std::int64_t clouds() const { return clouds_; }
+  [[nodiscard]] std::int64_t poses() const { return poses_; }
+
+ private:
+  void check_size(const DepthImage& image);
+
+  std::filesystem::path file_;
+  std::filesystem::path unfinished_;
+  SensorModel sensor_;
+  LogWriter log_;
+  std::int64_t session_ = 0;  ///< the first cloud's utime: a recording imported twice gives the same bytes
+  std::int64_t clouds_ = 0;
+  std::int64_t poses_ = 0;
+  std::optional<std::int64_t> last_pose_utime_;
+  int width_ = 0;
+  int height_ = 0;
+};
+
+}  // namespace floornav

@@ -1,0 +1,152 @@
+#include "tools/pictures/map_picture.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "tools/pictures/plan.hpp"
+
+namespace floornav {
+
+namespace {
+
+constexpr Color kInk = color(0x26292E);
+constexpr Color kUnknown = color(0xD3D7DD);
+constexpr Color kFreeDoubtful = color(0xB9C98A);
+constexpr Color kFreeSure = color(0xF4F9EC);
+constexpr Color kObstacle = color(0x23262F);
+constexpr Color kUnreachable = color(0xC4572E);
+constexpr Color kPath = color(0x1668D8);
+constexpr Color kTrajectory = color(0x8A3FBF);
+constexpr Color kGoal = color(0xD81E5B);
+constexpr Color kWhite = color(0xFFFFFF);
+constexpr double kTrajectoryGap_m = 2.0;  // frames of their own maps lie farther apart
+
+Color cell_color(VertexState state, double belief) {
+  switch (state) {
+    case VertexState::kFree:
+      return mix(kFreeDoubtful, kFreeSure, belief);
+    case VertexState::kBlocked:
+      return mix(kObstacle, kUnreachable, belief);
+    case VertexState::kUnknown:
+      break;
+  }
+  return kUnknown;
+}
+
+Eigen::AlignedBox2d shown_part(const MapPicture& picture) {
+  const CellRectangle& cells = picture.map.cells;
+  Eigen::AlignedBox2d box(Eigen::Vector2d(cells.x_min_m(), cells.y_min_m()),
+                          Eigen::Vector2d(cells.x_max_m(), cells.y_max_m()));
+  for (const auto& place : picture.trajectory) box.extend(place);
+  for (const auto& place : picture.path) box.extend(place);
+  if (picture.goal) box.extend(*picture.goal);
+  if (picture.assumed_floor) {
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(picture.assumed_floor->radius_m);
+    box.extend(Eigen::Vector2d(picture.assumed_floor->center_m - reach));
+    box.extend(Eigen::Vector2d(picture.assumed_floor->center_m + reach));
+  }
+  const double margin_m = 0.3 + 0.02 * box.sizes().maxCoeff();
+  return {box.min().array() - margin_m, box.max().array() + margin_m};
+}
+
+void paint_cells(Plan& plan, const MapRaster& map) {
+  plan.canvas().rectangle(plan.plot_corner(), plan.plot_size(), kUnknown);
+  std::vector<std::uint32_t> colors(map.cells.size());
+  for (std::size_t i = 0; i < colors.size(); ++i)
+    colors[i] = packed(cell_color(map.state[i], map.belief[i] / 255.0));
+  plan.paint(map.cells, colors);
+}
+
+void draw_path(Plan& plan, const std::vector<Eigen::Vector2d>& path) {
+  if (path.size() < 2) return;
+  const double no_gap = std::numeric_limits<double>::infinity();
+  plan.line(path, {kWhite, 7, 0.9}, no_gap);
+  plan.line(path, {kPath, 3.5}, no_gap);
+}
+
+void draw_robot(Plan& plan, const RobotMark& robot) {
+  const auto corner = [&](double angle, double reach) {
+    const double direction = robot.heading_rad + angle;
+    return plan.at(robot.place_m +
+                   reach * robot.radius_m * Eigen::Vector2d(std::cos(direction), std::sin(direction)));
+  };
+  plan.canvas().disc(plan.at(robot.place_m), robot.radius_m * plan.pixels_per_m(), kTrajectory, 0.25);
+  plan.canvas().circle(plan.at(robot.place_m), robot.radius_m * plan.pixels_per_m(), {kTrajectory, 1.5});
+  plan.canvas().polygon(std::array{corner(0, 0.85), corner(2.5, 0.6), corner(0, -0.25), corner(-2.5, 0.6)},
+                        kTrajectory);
+}
+
+void draw_goal(Canvas& canvas, const Eigen::Vector2d& at) {
+  canvas.disc(at, 9, kWhite);
+  canvas.circle(at, 7, {kGoal, 2.5});
+  canvas.disc(at, 3, kGoal);
+}
+
+/// The key at the right: a mark and its words, one below the other.
+class Key {
+ public:
+  explicit Key(Plan& plan) : canvas_(plan.canvas()), at_(plan.key_corner()) {}
+
+  void swatch(Color left, Color right, const std::string& words) {
+    constexpr int kSteps = 17;
+    for (int i = 0; i < kSteps; ++i)
+      canvas_.rectangle(at_ + Eigen::Vector2d(2.0 * i, 0), {2, 16}, mix(left, right, i / (kSteps - 1.0)));
+    canvas_.outline(at_ + Eigen::Vector2d(0.5, 0.5), {33, 15}, {kInk, 1, 0.5});
+    words_beside(words);
+  }
+  void line(const Stroke& stroke, const std::string& words) {
+    canvas_.line(std::array<Eigen::Vector2d, 2>{at_ + Eigen::Vector2d(1, 8), at_ + Eigen::Vector2d(33, 8)},
+                 stroke);
+    words_beside(words);
+  }
+  void goal(const std::string& words) {
+    draw_goal(canvas_, at_ + Eigen::Vector2d(17, 8));
+    words_beside(words);
+  }
+
+ private:
+  void words_beside(const std::string& words) {
+    canvas_.text(at_ + Eigen::Vector2d(44, 13), words, 12.5, kInk);
+    at_.y() += 27;
+  }
+  Canvas& canvas_;
+  Eigen::Vector2d at_;
+};
+
+constexpr Stroke kTrajectoryStroke{kTrajectory, 1.8, 0.9};
+constexpr Stroke kAssumedStroke{kInk, 1.5, 0.8, 5};
+
+void draw_key(Plan& plan, const MapPicture& picture) {
+  Key key(plan);
+  key.swatch(kFreeDoubtful, kFreeSure, "free, belief 0 to 1");
+  key.swatch(kObstacle, kObstacle, "blocked, obstacle");
+  key.swatch(mix(kObstacle, kUnreachable, 0.5), kUnreachable, "blocked, out of reach");
+  key.swatch(kUnknown, kUnknown, "unknown");
+  if (!picture.trajectory.empty()) key.line(kTrajectoryStroke, "robot's way");
+  if (picture.path.size() > 1) key.line({kPath, 3.5}, "path");
+  if (picture.goal) key.goal("goal");
+  if (picture.assumed_floor) key.line(kAssumedStroke, "assumed floor at start");
+}
+
+}  // namespace
+
+void write_map_png(const MapPicture& picture, const std::filesystem::path& file) {
+  Plan plan({.shown_m = shown_part(picture),
+             .resolution_m = picture.map.cells.resolution_m,
+             .longest_px = picture.longest_px,
+             .title = picture.title,
+             .subtitle = picture.subtitle});
+  paint_cells(plan, picture.map);
+  plan.frame();
+  plan.line(picture.trajectory, kTrajectoryStroke, kTrajectoryGap_m);
+  if (picture.assumed_floor)
+    plan.canvas().circle(plan.at(picture.assumed_floor->center_m),
+                         picture.assumed_floor->radius_m * plan.pixels_per_m(), kAssumedStroke);
+  draw_path(plan, picture.path);
+  if (picture.robot) draw_robot(plan, *picture.robot);
+  if (picture.goal) draw_goal(plan.canvas(), plan.at(*picture.goal));
+  draw_key(plan, picture);
+  plan.canvas().write_png(file);
+}
+
+}  // namespace floornav
