@@ -28,7 +28,7 @@ MapRaster map_with_box() {
   return map;
 }
 
-/// Area of a colour in the picture, in m^2, and the middle of it, in px.
+/// How much of a colour there is in a picture, and the middle of it, in px.
 struct Found {
   double pixels = 0;
   cv::Point2d middle;
@@ -37,7 +37,7 @@ Found find(const cv::Mat& picture, const cv::Vec3b& bgr) {
   Found found;
   for (int y = 0; y < picture.rows; ++y)
     for (int x = 0; x < picture.cols; ++x)
-      if (cv::norm(picture.at<cv::Vec3b>(y, x) - bgr, cv::NORM_INF) < 3) {
+      if (cv::norm(picture.at<cv::Vec3b>(y, x), bgr, cv::NORM_INF) < 3) {
         found.pixels += 1;
         found.middle += cv::Point2d(x, y);
       }
