@@ -1,0 +1,136 @@
+#include "mapping/cell_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floornav {
+namespace {
+
+Level new_level(const Sighting& sighting) {
+  Level level;
+  static_cast<Surface&>(level) = sighting;
+  level.support = static_cast<std::uint8_t>(std::clamp(sighting.points, 1, Level::kPerFrame));
+  return level;
+}
+
+bool fits(const Level& level, const Surface& surface, const FusionLimits& limits) {
+  if (!level.exists()) return false;
+  const float gate_m = std::max(limits.gate_m, 3.0F * std::sqrt(level.var_m2 + surface.var_m2));
+  return std::abs(level.z_m - surface.z_m) <= gate_m;
+}
+
+void blend(Surface& memory, const Surface& view, float memory_var_m2) {
+  const float gain = memory.var_m2 / (memory.var_m2 + view.var_m2);
+  memory.z_m += gain * (view.z_m - memory.z_m);
+  memory.gradient_x += gain * (view.gradient_x - memory.gradient_x);
+  memory.gradient_y += gain * (view.gradient_y - memory.gradient_y);
+  memory.var_m2 = std::max((1.0F - gain) * memory.var_m2, memory_var_m2);
+}
+
+void support(Level& level, const Sighting& sighting, const FusionLimits& limits) {
+  const std::int32_t sum = level.support + std::clamp(sighting.points, 1, Level::kPerFrame);
+  level.support = static_cast<std::uint8_t>(std::min(sum, Level::kMost));
+  if (!level.column && !sighting.column) {
+    blend(level, sighting, limits.memory_var_m2);
+  } else if (level.column && (!sighting.column || sighting.z_m > level.z_m)) {
+    static_cast<Surface&>(level) =
+        sighting;  // a plane tells more than a column; a column is as high as its highest view
+  }
+}
+
+/// What a frame that did not see the level takes from its support.
+std::int32_t doubt(const Level& level, const CellView& view, const FusionLimits& limits) {
+  constexpr float kMuchSharper = 4.0F;
+  std::int32_t doubt = view.ray_z_m < level.z_m - limits.ray_margin_m ? 1 : 0;
+  for (const Sighting& sighting : view.sightings) {
+    if (sighting.column || sighting.z_m >= level.z_m || fits(level, sighting, limits)) continue;
+    doubt = std::max(doubt, kMuchSharper * sighting.var_m2 < level.var_m2 ? 4 : 1);
+  }
+  return doubt;
+}
+
+void weaken(Level& level, std::int32_t doubt) {
+  level.support = static_cast<std::uint8_t>(std::max(0, level.support - doubt));
+}
+
+}  // namespace
+
+void CellMemory::place_above(const Sighting& sighting, Seen& seen) {
+  const bool replaces = !upper_.exists() || (sighting.z_m > upper_.z_m &&
+                                             (sighting.points >= Level::kTrusted || !upper_.trusted()));
+  if (!replaces) return;
+  upper_ = new_level(sighting);
+  seen.upper = true;
+}
+
+void CellMemory::place_below(const Sighting& sighting, Seen& seen) {
+  if (!upper_.exists()) {
+    upper_ = lower_;
+    seen.upper = seen.lower;
+  }
+  lower_ = new_level(sighting);
+  seen.lower = true;
+}
+
+void CellMemory::place(const Sighting& sighting, const FusionLimits& limits, Seen& seen) {
+  const bool fits_upper = fits(upper_, sighting, limits);
+  const bool fits_lower = fits(lower_, sighting, limits);
+  const bool nearer_upper = std::abs(upper_.z_m - sighting.z_m) < std::abs(lower_.z_m - sighting.z_m);
+  const auto part_of = [&sighting](const Level& level) {
+    return level.exists() && level.column && sighting.column && sighting.z_m <= level.z_m;
+  };
+  if (fits_upper && (!fits_lower || nearer_upper)) {
+    support(upper_, sighting, limits);
+    seen.upper = true;
+  } else if (fits_lower) {
+    support(lower_, sighting, limits);
+    seen.lower = true;
+  } else if (part_of(upper_)) {
+    support(upper_, sighting, limits);
+    seen.upper = true;
+  } else if (part_of(lower_) || (lower_.exists() && lower_.column && !upper_.exists() && sighting.column)) {
+    support(lower_, sighting, limits);
+    seen.lower = true;
+  } else if (!lower_.exists()) {
+    lower_ = new_level(sighting);
+    seen.lower = true;
+  } else if (sighting.z_m < lower_.z_m) {
+    place_below(sighting, seen);
+  } else {
+    place_above(sighting, seen);
+  }
+}
+
+bool CellMemory::forget_unseen(const CellView& view, const FusionLimits& limits, Seen seen) {
+  const std::int32_t upper_doubt = upper_.exists() && !seen.upper ? doubt(upper_, view, limits) : 0;
+  const std::int32_t lower_doubt = lower_.exists() && !seen.lower ? doubt(lower_, view, limits) : 0;
+  weaken(upper_, upper_doubt);
+  weaken(lower_, lower_doubt);
+  if (!lower_.exists()) {
+    lower_ = upper_;
+    upper_ = Level{};
+  }
+  return upper_doubt + lower_doubt > 0;
+}
+
+void CellMemory::merge(const FusionLimits& limits) {
+  if (upper_.column || lower_.column || !upper_.exists() || !fits(lower_, upper_, limits)) return;
+  blend(lower_, upper_, limits.memory_var_m2);
+  lower_.support = std::max(lower_.support, upper_.support);
+  upper_ = Level{};
+}
+
+bool CellMemory::fuse(const CellView& view, const FusionLimits& limits) {
+  Seen seen;
+  for (const Sighting& sighting : view.sightings) place(sighting, limits, seen);
+  const bool doubted = forget_unseen(view, limits, seen);
+  merge(limits);
+  if (!view.sightings.empty()) {
+    no_return_frames_ = 0;
+  } else if (view.no_return && no_return_frames_ < 255) {
+    ++no_return_frames_;
+  }
+  return doubted || view.no_return || !view.sightings.empty();
+}
+
+}  // namespace floornav

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace floornav {
+
+/// One surface in one lattice cell, as one frame saw it or as many have made it.
+struct Surface {
+  float z_m = 0;         ///< local world frame; of a column its top
+  float var_m2 = 0;      ///< variance of z_m
+  float gradient_x = 0;  ///< rise per metre along x
+  float gradient_y = 0;  ///< rise per metre along y
+  bool column = false;   ///< too steep to have one height, or points on no plane: z_m is the highest of them
+};
+
+/// A surface in the memory of a cell. Support counts the points that speak for it, up to a limit; frames that
+/// should have seen it and did not take from it.
+struct Level : Surface {
+  static constexpr std::int32_t kTrusted = 3;   ///< from here on it decides
+  static constexpr std::int32_t kPerFrame = 4;  ///< most that one frame adds
+  static constexpr std::int32_t kMost =
+      12;  ///< most that it can hold, so that it can go within a third of a second
+
+  std::uint8_t support = 0;
+
+  [[nodiscard]] bool exists() const { return support > 0; }
+  [[nodiscard]] bool trusted() const { return support >= kTrusted; }
+};
+
+/// A surface of one frame.
+struct Sighting : Surface {
+  std::int32_t points = 0;
+  float lowest_z_m = 0;  ///< what is known of its lower end
+};
+
+/// All that one frame tells of a cell.
+struct CellView {
+  std::span<const Sighting> sightings;                     ///< by rising z_m
+  float ray_z_m = std::numeric_limits<float>::infinity();  ///< lowest height at which a ray passed through
+  bool no_return = false;                                  ///< a floor was expected, no ray came back
+};
+
+/// How much two heights may differ and still be one surface.
+struct FusionLimits {
+  float gate_m = 0.01F;         ///< at least this; else 3 sigma
+  float ray_margin_m = 0.02F;   ///< a ray this far under a surface speaks against it
+  float memory_var_m2 = 1e-6F;  ///< a fused variance is not smaller
+};
+
+/// What the map remembers of a lattice cell: the lowest surface (the floor, where it was seen) and the
+/// highest one that the robot would hit (things on the floor, table tops). Those between are not kept.
+class CellMemory {
+ public:
+  /// Fuses one frame. A sighting supports the level that it fits (Kalman filter by both variances, so that
+  /// nearer views win) or makes a new one. A level that was not seen loses support where a ray passed below
+  /// it or something below it was seen; four times as much where that view is twice as sharp. False where the
+  /// view told nothing.
+  bool fuse(const CellView& view, const FusionLimits& limits);
+
+  /// The surface that decides: the highest trusted one; null where there is none.
+  [[nodiscard]] const Surface* decider() const {
+    if (upper_.trusted()) return &upper_;
+    return lower_.trusted() ? &lower_ : nullptr;
+  }
+  [[nodiscard]] const Level& lower() const { return lower_; }
+  [[nodiscard]] const Level& upper() const { return upper_; }
+  /// Frames whose rays found no floor here, since one last did; at most 255.
+  [[nodiscard]] int no_return_frames() const { return no_return_frames_; }
+  /// Lowest thing seen above the robot's height; NaN: none.
+  [[nodiscard]] float overhead_z_m() const { return overhead_z_m_; }
+  void see_overhead(float z_m) { overhead_z_m_ = std::fmin(overhead_z_m_, z_m); }
+
+ private:
+  struct Seen {
+    bool lower = false;
+    bool upper = false;
+  };
+  void place(const Sighting& sighting, const FusionLimits& limits, Seen& seen);
+  void place_above(const Sighting& sighting, Seen& seen);
+  void place_below(const Sighting& sighting, Seen& seen);
+  bool forget_unseen(const CellView& view, const FusionLimits& limits, Seen seen);
+  void merge(const FusionLimits& limits);
+
+  Level lower_;
+  Level upper_;
+  float overhead_z_m_ = std::numeric_limits<float>::quiet_NaN();
+  std::uint8_t no_return_frames_ = 0;
+};
+
+}  // namespace floornav

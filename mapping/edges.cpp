@@ -1,0 +1,61 @@
+#include "mapping/edges.hpp"
+
+#include <cmath>
+
+namespace floornav {
+namespace {
+
+constexpr std::uint8_t bit(std::size_t k) {
+  return static_cast<std::uint8_t>(1U << (k & 7U));
+}
+
+/// The edge to side neighbour k of a free vertex.
+bool side_open(const VertexRef& from, std::size_t k) {
+  if ((from.tile->steps_open[from.index()] & bit(k)) == 0) return false;
+  return from.neighbour(k & 7U).vertex().is(Vertex::kFree);
+}
+
+bool diagonal_open(const VertexRef& from, std::size_t k, std::uint8_t sides, const StepRule& rule) {
+  if ((sides & bit(k - 1)) == 0 || (sides & bit(k + 1)) == 0) return false;
+  return side_open(from.neighbour((k - 1) & 7U), k + 1) && side_open(from.neighbour((k + 1) & 7U), k - 1) &&
+         rule.open(from.vertex().surface, from.neighbour(k).vertex().surface, k);
+}
+
+}  // namespace
+
+bool StepRule::open(const Surface& from, const Surface& to, std::size_t k) const {
+  const float half_x_m = 0.5F * resolution_m * static_cast<float>(kNeighbourX[k]);
+  const float half_y_m = 0.5F * resolution_m * static_cast<float>(kNeighbourY[k]);
+  const float rise_m =
+      (from.gradient_x + to.gradient_x) * half_x_m + (from.gradient_y + to.gradient_y) * half_y_m;
+  return std::abs(to.z_m - from.z_m - rise_m) <= max_step_m;
+}
+
+void open_steps(MapTile& tile, const StepRule& rule) {
+  for (std::int32_t y = 0; y < MapTile::kSide; ++y) {
+    for (std::int32_t x = 0; x < MapTile::kSide; ++x) {
+      const VertexRef from{&tile, x, y};
+      std::uint8_t mask = 0;
+      for (std::size_t k = 0; k < 8 && from.vertex().is(Vertex::kDrivable); k += 2) {
+        const VertexRef to = from.neighbour(k);
+        if (to && to.vertex().is(Vertex::kDrivable) &&
+            rule.open(from.vertex().surface, to.vertex().surface, k))
+          mask |= bit(k);
+      }
+      tile.steps_open[from.index()] = mask;
+    }
+  }
+}
+
+std::uint8_t open_edges(const VertexRef& from, const StepRule& rule) {
+  if (!from.vertex().is(Vertex::kFree)) return 0;
+  std::uint8_t mask = 0;
+  for (std::size_t k = 0; k < 8; k += 2)
+    if (side_open(from, k)) mask |= bit(k);
+  const std::uint8_t sides = mask;
+  for (std::size_t k = 1; k < 8; k += 2)
+    if (diagonal_open(from, k, sides, rule)) mask |= bit(k);
+  return mask;
+}
+
+}  // namespace floornav

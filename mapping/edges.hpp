@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mapping/map_tile.hpp"
+
+namespace floornav {
+
+/// Eq. (2): when a robot can go from a vertex to the next one.
+struct StepRule {
+  float max_step_m = 0.02F;    ///< T
+  float resolution_m = 0.05F;  ///< side of a vertex
+
+  /// Whether the step between a vertex and its neighbour k is at most T. The step is the difference of the
+  /// two planes' heights half-way between them: on level ground the difference of their heights, as in eq.
+  /// (2); on a ramp the slope, which has a limit of its own, is not taken for a step, however coarse the map
+  /// is.
+  [[nodiscard]] bool open(const Surface& from, const Surface& to, std::size_t k) const;
+};
+
+/// Works out MapTile::steps_open of a tile: towards the four side neighbours, where both vertices are
+/// drivable.
+void open_steps(MapTile& tile, const StepRule& rule);
+
+/// GridTile::edges of a vertex: open where both vertices are free and eq. (2) lets the robot pass. A diagonal
+/// is open only where both ways around its corner are open too, so that no wheel cuts over a step or past an
+/// obstacle's corner.
+std::uint8_t open_edges(const VertexRef& from, const StepRule& rule);
+
+}  // namespace floornav

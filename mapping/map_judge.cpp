@@ -1,0 +1,180 @@
+#include "mapping/map_judge.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "mapping/belief.hpp"
+#include "mapping/floor_seeds.hpp"
+
+namespace floornav {
+namespace {
+
+template <class Value>
+bool assign(Value& slot, Value value) {
+  const bool differs = slot != value;
+  slot = value;
+  return differs;
+}
+
+template <class Stored>
+Stored quantised(float value, float unit) {
+  using Limits = std::numeric_limits<Stored>;
+  const float counts = std::round(value / unit);
+  return static_cast<Stored>(
+      std::clamp(counts, static_cast<float>(Limits::min()), static_cast<float>(Limits::max())));
+}
+
+std::uint8_t clearance_of(const Vertex& vertex, float floor_m) {
+  if (std::isnan(vertex.overhead_z_m)) return GridTile::kNothingAbove;
+  const auto counts = quantised<std::uint8_t>(vertex.overhead_z_m - floor_m, GridTile::kClearanceUnit_m);
+  return std::min<std::uint8_t>(counts, GridTile::kNothingAbove - 1);
+}
+
+/// Writes what a vertex that was seen shows. True where it differs from before.
+bool write_seen(GridTile& grid, std::size_t i, const Vertex& vertex, float belief) {
+  const Surface& surface = vertex.surface;
+  const float height_m = surface.z_m - grid.origin_z_m;
+  bool differs = assign(grid.state[i], vertex.is(Vertex::kFree) ? VertexState::kFree : VertexState::kBlocked);
+  differs |= assign(grid.belief[i], quantised<std::uint8_t>(belief, 1.0F / 255.0F));
+  differs |= assign(grid.height[i], quantised<std::int16_t>(height_m, GridTile::kHeightUnit_m));
+  differs |=
+      assign(grid.sigma[i], quantised<std::int16_t>(std::sqrt(surface.var_m2), GridTile::kHeightUnit_m));
+  differs |= assign(grid.slope[i], quantised<std::uint8_t>(slope_deg(surface), GridTile::kSlopeUnit_deg));
+  return differs;
+}
+
+/// Writes a vertex that was never seen: unknown, or a drop beside the floor.
+bool write_unseen(GridTile& grid, std::size_t i, bool drop, float floor_m) {
+  constexpr std::int16_t kNoIdea = std::numeric_limits<std::int16_t>::max();
+  const float height_m = drop ? floor_m - grid.origin_z_m : 0.0F;
+  bool differs = assign(grid.state[i], drop ? VertexState::kBlocked : VertexState::kUnknown);
+  differs |= assign(grid.belief[i], std::uint8_t{0});
+  differs |= assign(grid.height[i], quantised<std::int16_t>(height_m, GridTile::kHeightUnit_m));
+  differs |= assign(grid.sigma[i], drop ? kNoIdea : std::int16_t{0});
+  differs |= assign(grid.slope[i], std::uint8_t{0});
+  return differs;
+}
+
+/// Appends the tiles around those in `work` that are not in it.
+void add_neighbours(std::vector<MapTile*>& work, std::int64_t version) {
+  for (std::size_t i = 0, end = work.size(); i < end; ++i) {
+    for (MapTile* beside : work[i]->neighbours) {
+      if (beside == nullptr || beside->judged == version) continue;
+      beside->judged = version;
+      work.push_back(beside);
+    }
+  }
+}
+
+}  // namespace
+
+MapJudge::MapJudge(const MappingSettings& settings, const RobotSettings& robot)
+    : settings_(settings),
+      robot_(robot),
+      rule_{static_cast<float>(robot.max_step_m), static_cast<float>(settings.resolution_m)},
+      reach_(rule_.max_step_m, rule_.resolution_m, static_cast<float>(robot.max_slope_deg)),
+      floor_(settings.resolution_m) {}
+
+void MapJudge::summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) const {
+  const auto per_vertex = static_cast<std::size_t>(cells_per_vertex * cells_per_vertex);
+  const float pitch_m = rule_.resolution_m / static_cast<float>(cells_per_vertex);
+  std::vector<const CellMemory*> cells(per_vertex);
+  for (std::size_t i = 0; i < tile.vertices.size(); ++i) {
+    if (!tile.touched[i]) continue;
+    Vertex& vertex = tile.vertices[i];
+    int no_return_frames = 0;
+    vertex.overhead_z_m = std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t c = 0; c < per_vertex; ++c) {
+      cells[c] = &tile.cells[i * per_vertex + c];
+      vertex.overhead_z_m = std::fmin(vertex.overhead_z_m, cells[c]->overhead_z_m());
+      no_return_frames = std::max(no_return_frames, cells[c]->no_return_frames());
+    }
+    const SquareSummary summary = summarise(cells, cells_per_vertex, pitch_m, rule_.max_step_m);
+    const bool gentle = slope_deg(summary.surface) <= static_cast<float>(robot_.max_slope_deg);
+    vertex.surface = summary.surface;
+    vertex.set(Vertex::kSeen, summary.seen);
+    vertex.set(Vertex::kDrivable, summary.seen && gentle && !summary.stepped && !summary.surface.column);
+    vertex.set(Vertex::kNoReturn, !summary.seen && no_return_frames >= settings_.no_return_frames);
+  }
+  tile.touched.reset();
+}
+
+bool MapJudge::judge_vertex(const VertexRef& place, float floor_m) {
+  Vertex& vertex = place.vertex();
+  GridTile& grid = *place.tile->grid;
+  const std::size_t i = place.index();
+  grid.seen_us[i] = vertex.seen_us;
+  bool differs = assign(grid.clearance[i], clearance_of(vertex, floor_m));
+  if (!vertex.is(Vertex::kSeen)) {
+    vertex.set(Vertex::kFree, false);
+    const bool drop = vertex.is(Vertex::kNoReturn) && FloorReach::beside_floor(place);
+    return write_unseen(grid, i, drop, floor_m) || differs;
+  }
+  const float belief_here = belief(vertex.surface.z_m - floor_m, slope_deg(vertex.surface));
+  const bool believed = belief_here >= static_cast<float>(settings_.min_belief);
+  vertex.set(Vertex::kFree, believed && vertex.is(Vertex::kDrivable) && !vertex.is(Vertex::kCutOff));
+  return write_seen(grid, i, vertex, belief_here) || differs;
+}
+
+bool MapJudge::judge(MapTile& tile, const Pose& T_world_body) {
+  const double side_m = settings_.resolution_m * MapTile::kSide;
+  const float far_m =
+      plane_height_m(T_world_body, (tile.index.ix + 0.5) * side_m, (tile.index.iy + 0.5) * side_m);
+  floor_.heights_of(tile, far_m, floor_heights_m_);
+  if (tile.grid->version == 0) tile.grid->origin_z_m = std::round(floor_heights_m_.front());
+  bool differs = false;
+  for (std::int32_t y = 0; y < MapTile::kSide; ++y) {
+    for (std::int32_t x = 0; x < MapTile::kSide; ++x) {
+      const VertexRef place{&tile, x, y};
+      differs |= judge_vertex(place, floor_heights_m_[place.index()]);
+    }
+  }
+  return differs;
+}
+
+bool MapJudge::publish_edges(MapTile& tile) const {
+  bool differs = false;
+  for (std::int32_t y = 0; y < MapTile::kSide; ++y) {
+    for (std::int32_t x = 0; x < MapTile::kSide; ++x) {
+      const VertexRef place{&tile, x, y};
+      differs |= assign(tile.grid->edges[place.index()], open_edges(place, rule_));
+    }
+  }
+  return differs;
+}
+
+std::vector<CellIndex> MapJudge::refresh(const std::vector<CellIndex>& dirty, const Pose& T_world_body,
+                                         MapTiles& tiles, GridMap& map) {
+  const std::int64_t version = ++map.version;
+  std::vector<MapTile*> work;
+  for (const CellIndex index : dirty) {
+    MapTile* const tile = tiles.find(index);
+    summarise_touched(*tile, tiles.cells_per_vertex());
+    tile->judged = version;
+    work.push_back(tile);
+  }
+  add_neighbours(work, version);
+  for (MapTile* tile : work) open_steps(*tile, rule_);
+  reach_.grow(work, floor_seeds(T_world_body, map.lattice(), rule_.max_step_m, tiles), version);
+  reach_.find_cut_off(work, version);
+  for (MapTile* tile : work) floor_.update(*tile);
+
+  std::vector<CellIndex> changed;
+  for (MapTile* tile : work) {
+    tile->grid = &map.make(tile->index);
+    if (judge(*tile, T_world_body)) changed.push_back(tile->index);
+  }
+  add_neighbours(work, version);
+  for (MapTile* tile : work)
+    if (publish_edges(*tile)) changed.push_back(tile->index);
+  std::ranges::sort(changed);
+  const auto repeated = std::ranges::unique(changed);
+  changed.erase(repeated.begin(), repeated.end());
+  for (const CellIndex index : changed) map.make(index).version = version;
+  return changed;
+}
+
+}  // namespace floornav

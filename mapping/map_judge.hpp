@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mapping/edges.hpp"
+#include "mapping/floor_height.hpp"
+#include "mapping/floor_reach.hpp"
+#include "mapping/grid_map.hpp"
+#include "mapping/map_tiles.hpp"
+#include "mapping/settings.hpp"
+#include "runtime/geometry/pose.hpp"
+#include "runtime/geometry/robot.hpp"
+
+namespace floornav {
+
+/// Makes the grid-map of what the tiles remember: who is free, who is blocked, which edges are open.
+class MapJudge {
+ public:
+  MapJudge(const MappingSettings& settings, const RobotSettings& robot);
+
+  /// Judges the tiles in `dirty` and those around them. Counts up the map's version, and returns the tiles of
+  /// `map` that changed, sorted.
+  std::vector<CellIndex> refresh(const std::vector<CellIndex>& dirty, const Pose& T_world_body,
+                                 MapTiles& tiles, GridMap& map);
+
+  [[nodiscard]] const FloorHeight& floor() const { return floor_; }
+  [[nodiscard]] float max_step_m() const { return rule_.max_step_m; }
+  void clear() { floor_.clear(); }
+
+ private:
+  void summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) const;
+  bool judge(MapTile& tile, const Pose& T_world_body);
+  bool judge_vertex(const VertexRef& place, float floor_m);
+  [[nodiscard]] bool publish_edges(MapTile& tile) const;
+
+  MappingSettings settings_;
+  RobotSettings robot_;
+  StepRule rule_;
+  FloorReach reach_;
+  FloorHeight floor_;
+  std::vector<float> floor_heights_m_;
+};
+
+}  // namespace floornav

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "mapping/cell_memory.hpp"
+#include "mapping/grid_map.hpp"
+#include "mapping/vertex.hpp"
+
+namespace floornav {
+
+/// The mapper's own side of a grid tile: memory of its lattice cells, its vertices, and links to the tiles
+/// around it.
+struct MapTile {
+  static constexpr std::int32_t kSide = GridTile::kSide;
+
+  CellIndex index;
+  std::array<MapTile*, 8> neighbours{};  ///< as kNeighbourX, kNeighbourY; null where there is none yet
+  std::vector<CellMemory> cells;         ///< vertex by vertex; those of a vertex row by row along x
+  std::array<Vertex, GridTile::kVertices> vertices{};
+  std::array<std::uint8_t, GridTile::kVertices>
+      steps_open{};                          ///< bit k as GridTile::edges, even k only: by heights alone
+  std::bitset<GridTile::kVertices> touched;  ///< have new evidence since the last refresh
+  std::int64_t judged = -1;                  ///< map version at which it was last judged
+  GridTile* grid = nullptr;                  ///< what is published of it
+
+  [[nodiscard]] std::int64_t memory_bytes() const {
+    return static_cast<std::int64_t>(sizeof(MapTile) + cells.size() * sizeof(CellMemory));
+  }
+};
+
+/// A place in the map that can be walked from tile to tile without looking tiles up.
+struct VertexRef {
+  MapTile* tile = nullptr;
+  std::int32_t x = 0;  ///< within the tile
+  std::int32_t y = 0;
+
+  [[nodiscard]] explicit operator bool() const { return tile != nullptr; }
+  [[nodiscard]] std::size_t index() const { return static_cast<std::size_t>(y * MapTile::kSide + x); }
+  [[nodiscard]] Vertex& vertex() const { return tile->vertices[index()]; }
+
+  /// The vertex `dx`, `dy` steps on, at most a tile's side; false where there is no tile.
+  [[nodiscard]] VertexRef moved(std::int32_t dx, std::int32_t dy) const {
+    constexpr std::array<std::array<std::int32_t, 3>, 3> kTowards{{{5, 6, 7}, {4, -1, 0}, {3, 2, 1}}};
+    const std::int32_t to_x = x + dx;
+    const std::int32_t to_y = y + dy;
+    const std::int32_t tile_x = block_of(to_x, MapTile::kSide);
+    const std::int32_t tile_y = block_of(to_y, MapTile::kSide);
+    const std::int32_t towards =
+        kTowards[static_cast<std::size_t>(tile_y + 1)][static_cast<std::size_t>(tile_x + 1)];
+    MapTile* const to = towards < 0 ? tile : tile->neighbours[static_cast<std::size_t>(towards)];
+    return {to, to_x - tile_x * MapTile::kSide, to_y - tile_y * MapTile::kSide};
+  }
+  [[nodiscard]] VertexRef neighbour(std::size_t k) const { return moved(kNeighbourX[k], kNeighbourY[k]); }
+};
+
+}  // namespace floornav

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "mapping/cell_memory.hpp"
+
+namespace floornav {
+
+/// A vertex of the map before it is judged: what its lattice cells say together.
+struct Vertex {
+  static constexpr std::uint8_t kSeen = 1;      ///< a surface decides
+  static constexpr std::uint8_t kDrivable = 2;  ///< by its own slope and evenness
+  static constexpr std::uint8_t kFloor = 4;     ///< joined to the robot's floor by open edges
+  static constexpr std::uint8_t kCutOff = 8;    ///< every edge towards the robot's floor is closed by eq. (2)
+  static constexpr std::uint8_t kNoReturn =
+      16;                                     ///< never seen, and rays that should have found a floor did not
+  static constexpr std::uint8_t kFree = 32;   ///< the verdict on a vertex that was seen
+  static constexpr std::uint8_t kAsked = 64;  ///< the search for what is cut off has been here
+
+  Surface surface;
+  float overhead_z_m = std::numeric_limits<float>::quiet_NaN();  ///< lowest thing above the robot's height
+  std::int64_t seen_us = 0;                                      ///< utime of the last sighting, 0: never
+  std::uint8_t flags = 0;
+
+  [[nodiscard]] bool is(std::uint8_t flag) const { return (flags & flag) != 0; }
+  void set(std::uint8_t flag, bool value) {
+    flags = static_cast<std::uint8_t>(value ? flags | flag : flags & ~flag);
+  }
+};
+
+/// Steepest rise of a surface, degrees.
+float slope_deg(const Surface& surface);
+
+/// What decides in a square of lattice cells.
+struct SquareSummary {
+  bool seen = false;
+  bool stepped = false;  ///< its cells do not lie within a step of each other: the highest decides
+  Surface surface;
+};
+
+/// The surface of `side` x `side` cells, row by row along x: their mean plane at the square's centre,
+/// weighted by variance; but the highest cell (section 4.6: "the highest of them") where cells lie more than
+/// `step_m` and 3 sigma apart, or where none is more than a column.
+SquareSummary summarise(std::span<const CellMemory* const> cells, std::int32_t side, float pitch_m,
+                        float step_m);
+
+}  // namespace floornav

@@ -1,0 +1,73 @@
+#include "mapping/world_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace floornav {
+namespace {
+
+/// How many lattice cells go along a side of `resolution_m`.
+std::int32_t cells_along(double resolution_m, double pitch_m, const char* name) {
+  const double ratio = resolution_m / pitch_m;
+  const double cells = std::round(ratio);
+  if (cells < 1 || std::abs(ratio - cells) > 1e-6 * cells)
+    throw std::invalid_argument(std::string(name) + " " + std::to_string(resolution_m) +
+                                " is no integer multiple of the lattice pitch " + std::to_string(pitch_m));
+  return static_cast<std::int32_t>(cells);
+}
+
+}  // namespace
+
+WorldMap::WorldMap(const MappingSettings& settings, const RobotSettings& robot)
+    : memory_(settings, robot),
+      judge_(settings, robot),
+      grid_(settings.resolution_m),
+      terrain_(settings.terrain_resolution_m) {}
+
+void WorldMap::take_lattice(double pitch_m) {
+  if (pitch_m == pitch_m_) return;
+  if (!std::isfinite(pitch_m) || pitch_m < 0.001) throw std::invalid_argument("absurd lattice pitch");
+  if (pitch_m_ != 0)
+    throw std::invalid_argument("lattice pitch changed from " + std::to_string(pitch_m_) + " to " +
+                                std::to_string(pitch_m));
+  const std::int32_t cells_per_vertex = cells_along(grid_.lattice().pitch_m, pitch_m, "resolution_m");
+  cells_per_height_ = cells_along(terrain_.lattice().pitch_m, pitch_m, "terrain_resolution_m");
+  tiles_.set_cells_per_vertex(cells_per_vertex);
+  pitch_m_ = pitch_m;
+}
+
+WorldMemory::Taken WorldMap::integrate(const FloorEvidence& evidence) {
+  take_lattice(evidence.lattice.pitch_m);
+  if (!evidence.T_world_body.matrix().allFinite()) throw std::invalid_argument("pose that is not finite");
+  const WorldMemory::Taken taken = memory_.take(evidence, judge_.floor(), tiles_);
+  if (evidence.utime_us >= utime_us_) T_world_body_ = evidence.T_world_body;
+  utime_us_ = std::max(utime_us_, evidence.utime_us);
+  return taken;
+}
+
+std::vector<CellIndex> WorldMap::refresh() {
+  const std::vector<CellIndex> dirty = memory_.take_touched();
+  for (const CellIndex tile : dirty) terrain_builder_.touch(tile, grid_.lattice().pitch_m, terrain_);
+  return judge_.refresh(dirty, T_world_body_, tiles_, grid_);
+}
+
+std::vector<CellIndex> WorldMap::refresh_terrain() {
+  terrain_.version = grid_.version;
+  return terrain_builder_.refresh(tiles_, cells_per_height_, max_step_m(), terrain_);
+}
+
+void WorldMap::start_epoch() {
+  memory_.clear();
+  judge_.clear();
+  tiles_.clear();
+  grid_.clear();
+  terrain_.clear();
+  terrain_builder_.clear();
+  ++grid_.epoch;
+  ++grid_.version;
+  terrain_.epoch = grid_.epoch;
+}
+
+}  // namespace floornav

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mapping/grid_map.hpp"
+#include "mapping/map_judge.hpp"
+#include "mapping/map_tiles.hpp"
+#include "mapping/settings.hpp"
+#include "mapping/terrain_builder.hpp"
+#include "mapping/terrain_map.hpp"
+#include "mapping/world_memory.hpp"
+#include "perception/evidence.hpp"
+#include "runtime/geometry/robot.hpp"
+
+namespace floornav {
+
+/// The world's memory: fuses the evidence of frames into a grid-map (sections 3.1, 3.2, 4.6) and a terrain
+/// map.
+///
+/// A vertex is *blocked* where what decides in it - the highest surface below the robot's clearance - is no
+/// plane, is steeper than the robot drives, has a belief under `min_belief`, or is cut off from the robot's
+/// floor by eq. (2); so is a place beside the floor where rays should have found a floor and brought nothing
+/// back. The rest of what was seen is *free*; what was never seen is *unknown*. The robot's floor is what
+/// open edges join to the level ground near the robot.
+///
+/// The result depends on the evidence and its order alone. The cost of an update follows the tiles with new
+/// evidence.
+class WorldMap {
+ public:
+  WorldMap(const MappingSettings& settings, const RobotSettings& robot);
+
+  /// Remembers a frame or a part of one; the maps follow with refresh() and refresh_terrain(). Throws
+  /// std::invalid_argument, and nothing changes, where the evidence's lattice does not divide the map's
+  /// resolutions or is not that of the evidence before.
+  WorldMemory::Taken integrate(const FloorEvidence& evidence);
+
+  /// Judges anew what was touched since the last refresh. Returns the tiles of the grid-map that changed,
+  /// sorted.
+  std::vector<CellIndex> refresh();
+  /// The same for the terrain.
+  std::vector<CellIndex> refresh_terrain();
+
+  /// Forgets everything, because the pose has jumped. The epoch counts up.
+  void start_epoch();
+
+  [[nodiscard]] const GridMap& grid() const { return grid_; }
+  [[nodiscard]] const TerrainMap& terrain() const { return terrain_; }
+  [[nodiscard]] std::int64_t utime_us() const { return utime_us_; }  ///< of the newest evidence, 0: none yet
+  [[nodiscard]] const Pose& T_world_body() const { return T_world_body_; }  ///< of the newest evidence
+  [[nodiscard]] float max_step_m() const { return judge_.max_step_m(); }    ///< T of eq. (2)
+  [[nodiscard]] std::int64_t memory_bytes() const { return tiles_.memory_bytes(); }
+
+ private:
+  void take_lattice(double pitch_m);
+
+  WorldMemory memory_;
+  MapJudge judge_;
+  MapTiles tiles_;
+  GridMap grid_;
+  TerrainMap terrain_;
+  TerrainBuilder terrain_builder_;
+  double pitch_m_ = 0;  ///< of the evidence's lattice, 0: none yet
+  std::int32_t cells_per_height_ = 1;
+  std::int64_t utime_us_ = 0;
+  Pose T_world_body_ = Pose::Identity();
+};
+
+}  // namespace floornav

@@ -1,0 +1,115 @@
+#include "mapping/world_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace floornav {
+namespace {
+
+float square(double value) {
+  return static_cast<float>(value * value);
+}
+
+}  // namespace
+
+WorldMemory::WorldMemory(const MappingSettings& settings, const RobotSettings& robot)
+    : settings_(settings),
+      reader_(square(settings.view_sigma_m), static_cast<float>(robot.max_step_m)),
+      limits_{.gate_m = static_cast<float>(robot.max_step_m / 2),
+              .ray_margin_m = static_cast<float>(robot.max_step_m),
+              .memory_var_m2 = square(settings.memory_sigma_m)},
+      overhead_m_(static_cast<float>(robot.height_m + settings.overhead_margin_m)) {}
+
+void WorldMemory::sort_by_cell(const FloorEvidence& evidence, Taken& taken) {
+  const Eigen::Vector3d body = evidence.T_world_body.translation();
+  const auto in_range = [&](CellIndex cell) {
+    const double x_m = evidence.lattice.center_of(cell.ix) - body.x();
+    const double y_m = evidence.lattice.center_of(cell.iy) - body.y();
+    return std::hypot(x_m, y_m) <= settings_.max_range_m;
+  };
+  order_.clear();
+  for (std::uint32_t i = 0; i < evidence.cells.size(); ++i) {
+    const CellEvidence& cell = evidence.cells[i];
+    if (EvidenceReader::is_valid(cell, evidence) && in_range(cell.cell)) order_.push_back(i);
+  }
+  taken.refused = static_cast<std::int64_t>(evidence.cells.size() - order_.size());
+  taken.cells = static_cast<std::int64_t>(order_.size());
+  const auto key = [&](std::uint32_t i) { return evidence.cells[i].cell; };
+  if (!std::ranges::is_sorted(order_, {}, key)) std::ranges::stable_sort(order_, {}, key);
+}
+
+CellView WorldMemory::view_of(const FloorEvidence& evidence, Entries entries) {
+  sightings_.clear();
+  CellView view;
+  for (const std::uint32_t i : entries) {
+    const CellEvidence& cell = evidence.cells[i];
+    view.ray_z_m = std::fmin(view.ray_z_m, cell.ray_z_m);
+    view.no_return = view.no_return || cell.no_return;
+    reader_.read(cell, evidence, sightings_);
+  }
+  std::ranges::stable_sort(sightings_, {}, &Sighting::z_m);
+  return view;
+}
+
+float WorldMemory::overhead_limit_m(const FloorEvidence& evidence, CellIndex cell, CellIndex vertex,
+                                    const FloorHeight& floor) {
+  const CellIndex block = floor.block_at(vertex);
+  if (!last_block_.known || last_block_.block != block)
+    last_block_ = {block, floor.block_height(block), true};
+  if (last_block_.height_m) return *last_block_.height_m + overhead_m_;
+  const Lattice& lattice = evidence.lattice;
+  return plane_height_m(evidence.T_world_body, lattice.center_of(cell.ix), lattice.center_of(cell.iy)) +
+         overhead_m_;
+}
+
+bool WorldMemory::split_overhead(CellMemory& memory, float limit_z_m) {
+  const auto erased = std::erase_if(sightings_, [&](const Sighting& sighting) {
+    const bool above = sighting.lowest_z_m > limit_z_m;
+    if (above) memory.see_overhead(sighting.lowest_z_m);
+    return above;
+  });
+  return erased > 0;
+}
+
+void WorldMemory::take_cell(const FloorEvidence& evidence, Entries entries, const FloorHeight& floor,
+                            MapTiles& tiles) {
+  const CellIndex cell = evidence.cells[entries.front()].cell;
+  const CellIndex vertex = tiles.vertex_of(cell);
+  CellView view = view_of(evidence, entries);
+  const bool only_clears = sightings_.empty() && !view.no_return;
+  MapTile* const tile =
+      only_clears ? tiles.find(GridMap::tile_of(vertex)) : &tiles.make(GridMap::tile_of(vertex));
+  if (tile == nullptr) return;
+  CellMemory& memory = tile->cells[tiles.slot_of(cell)];
+  const bool overhead = split_overhead(memory, overhead_limit_m(evidence, cell, vertex, floor));
+  view.sightings = sightings_;
+  if (!memory.fuse(view, limits_) && !overhead) return;
+  if (tile->touched.none()) touched_.push_back(tile->index);
+  const std::size_t index = GridMap::index_of(vertex);
+  tile->touched.set(index);
+  if (!sightings_.empty())
+    tile->vertices[index].seen_us = std::max(tile->vertices[index].seen_us, evidence.utime_us);
+}
+
+WorldMemory::Taken WorldMemory::take(const FloorEvidence& evidence, const FloorHeight& floor,
+                                     MapTiles& tiles) {
+  Taken taken;
+  sort_by_cell(evidence, taken);
+  last_block_.known = false;
+  for (std::size_t first = 0; first < order_.size();) {
+    std::size_t last = first + 1;
+    while (last < order_.size() && evidence.cells[order_[last]].cell == evidence.cells[order_[first]].cell)
+      ++last;
+    take_cell(evidence, Entries(order_).subspan(first, last - first), floor, tiles);
+    first = last;
+  }
+  return taken;
+}
+
+std::vector<CellIndex> WorldMemory::take_touched() {
+  std::ranges::sort(touched_);
+  return std::exchange(touched_, {});
+}
+
+}  // namespace floornav

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mapping/evidence_reader.hpp"
+#include "mapping/floor_height.hpp"
+#include "mapping/map_tiles.hpp"
+#include "mapping/settings.hpp"
+#include "perception/evidence.hpp"
+#include "runtime/geometry/robot.hpp"
+
+namespace floornav {
+
+/// Fuses evidence into the lattice cells of the tiles.
+class WorldMemory {
+ public:
+  WorldMemory(const MappingSettings& settings, const RobotSettings& robot);
+
+  struct Taken {
+    std::int64_t cells = 0;    ///< remembered
+    std::int64_t refused = 0;  ///< impossible numbers, or out of range
+  };
+  /// `floor` tells what hangs above the robot.
+  Taken take(const FloorEvidence& evidence, const FloorHeight& floor, MapTiles& tiles);
+
+  /// Tiles with evidence since the last call, sorted.
+  std::vector<CellIndex> take_touched();
+  void clear() { touched_.clear(); }
+
+ private:
+  using Entries = std::span<const std::uint32_t>;  ///< places in FloorEvidence::cells, all of one cell
+
+  void sort_by_cell(const FloorEvidence& evidence, Taken& taken);
+  void take_cell(const FloorEvidence& evidence, Entries entries, const FloorHeight& floor, MapTiles& tiles);
+  [[nodiscard]] CellView view_of(const FloorEvidence& evidence, Entries entries);
+  [[nodiscard]] float overhead_limit_m(const FloorEvidence& evidence, CellIndex cell, CellIndex vertex,
+                                       const FloorHeight& floor);
+  bool split_overhead(CellMemory& memory, float limit_z_m);
+
+  MappingSettings settings_;
+  EvidenceReader reader_;
+  FusionLimits limits_;
+  float overhead_m_;                  ///< above the floor, from where on nothing can be hit
+  std::vector<std::uint32_t> order_;  ///< valid entries of the evidence, those of a cell together
+  std::vector<Sighting> sightings_;
+  std::vector<CellIndex> touched_;
+  struct {
+    CellIndex block;
+    std::optional<float> height_m;
+    bool known = false;
+  } last_block_;  ///< the floor's height where the last cell was: neighbours ask again and again
+};
+
+}  // namespace floornav

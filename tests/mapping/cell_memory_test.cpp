@@ -1,0 +1,164 @@
+#include "mapping/cell_memory.hpp"
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace floornav {
+namespace {
+
+constexpr FusionLimits kLimits{.gate_m = 0.01F, .ray_margin_m = 0.02F, .memory_var_m2 = 1e-8F};
+
+Sighting plane(float z_m, float sigma_m = 0.002F, std::int32_t points = 10) {
+  Sighting sighting;
+  sighting.z_m = z_m;
+  sighting.var_m2 = sigma_m * sigma_m;
+  sighting.points = points;
+  sighting.lowest_z_m = z_m;
+  return sighting;
+}
+
+Sighting column(float top_m, std::int32_t points = 10) {
+  Sighting sighting = plane(top_m, 0.01F, points);
+  sighting.column = true;
+  return sighting;
+}
+
+void fuse(CellMemory& memory, const std::vector<Sighting>& sightings,
+          float ray_z_m = std::numeric_limits<float>::infinity()) {
+  memory.fuse({.sightings = sightings, .ray_z_m = ray_z_m}, kLimits);
+}
+
+class Fusion : public testing::TestWithParam<unsigned> {};
+
+TEST_P(Fusion, IsTheMeanWeightedByVariance) {
+  std::mt19937 random(GetParam());
+  std::uniform_real_distribution<float> sigma_m(0.002F, 0.02F);
+  CellMemory memory;
+  double weights = 0;
+  double weighted_z = 0;
+  double weighted_rise = 0;
+  for (int view = 0; view < 20; ++view) {
+    const float sigma = sigma_m(random);
+    Sighting sighting = plane(std::uniform_real_distribution<float>(-0.004F, 0.004F)(random), sigma);
+    sighting.gradient_x = std::uniform_real_distribution<float>(-0.1F, 0.1F)(random);
+    fuse(memory, {sighting});
+    const double weight = 1.0 / (static_cast<double>(sigma) * static_cast<double>(sigma));
+    weights += weight;
+    weighted_z += weight * static_cast<double>(sighting.z_m);
+    weighted_rise += weight * static_cast<double>(sighting.gradient_x);
+  }
+  ASSERT_NE(memory.decider(), nullptr);
+  EXPECT_NEAR(memory.decider()->z_m, weighted_z / weights, 1e-6);
+  EXPECT_NEAR(memory.decider()->var_m2, 1 / weights, 1e-4 / weights);
+  EXPECT_NEAR(memory.decider()->gradient_x, weighted_rise / weights, 1e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Fusion, testing::Range(1U, 11U));
+
+TEST(CellMemory, VarianceHasAFloorSoThatTheHeightStillFollows) {
+  CellMemory memory;
+  FusionLimits limits = kLimits;
+  limits.memory_var_m2 = 1e-6F;
+  const std::vector<Sighting> before{plane(0.0F)};
+  for (int view = 0; view < 1000; ++view) memory.fuse({.sightings = before}, limits);
+  EXPECT_FLOAT_EQ(memory.decider()->var_m2, 1e-6F);
+  const std::vector<Sighting> after{plane(0.005F)};
+  for (int view = 0; view < 30; ++view) memory.fuse({.sightings = after}, limits);
+  EXPECT_NEAR(memory.decider()->z_m, 0.005F, 1e-4F);
+}
+
+TEST(CellMemory, NearerViewWinsOverAFarWrongOne) {
+  CellMemory memory;
+  for (int view = 0; view < 5; ++view) fuse(memory, {plane(0.06F, 0.015F)});
+  EXPECT_NEAR(memory.decider()->z_m, 0.06F, 1e-4F);
+  for (int view = 0; view < 3; ++view) fuse(memory, {plane(0.0F, 0.002F)});
+  EXPECT_NEAR(memory.decider()->z_m, 0.0F, 0.002F);
+}
+
+TEST(CellMemory, NothingSeenDecidesNothing) {
+  CellMemory memory;
+  fuse(memory, {}, 0.1F);
+  EXPECT_EQ(memory.decider(), nullptr);
+}
+
+TEST(CellMemory, TwoPointsAreNotTrustedAtOnce) {
+  CellMemory memory;
+  fuse(memory, {plane(0, 0.002F, 2)});
+  EXPECT_EQ(memory.decider(), nullptr);
+  fuse(memory, {plane(0, 0.002F, 2)});
+  EXPECT_NE(memory.decider(), nullptr);
+}
+
+TEST(CellMemory, HighestSurfaceDecides) {
+  CellMemory memory;
+  fuse(memory, {plane(0), plane(0.4F)});
+  EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.4F);
+  EXPECT_FLOAT_EQ(memory.lower().z_m, 0);
+}
+
+TEST(CellMemory, NewObstacleDecidesInItsFirstFrame) {
+  CellMemory memory;
+  for (int view = 0; view < 50; ++view) fuse(memory, {plane(0)});
+  fuse(memory, {column(0.3F)});
+  EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.3F);
+}
+
+TEST(CellMemory, FloorSeenBelowClearsAnObstacleThatLeft) {
+  CellMemory memory;
+  for (int view = 0; view < 100; ++view) fuse(memory, {plane(0), column(1.0F)});
+  for (int view = 0; view < 10; ++view) fuse(memory, {plane(0)});
+  EXPECT_FLOAT_EQ(memory.decider()->z_m, 0);
+}
+
+TEST(CellMemory, SightLineBelowItsTopClearsAnObstacle) {
+  CellMemory memory;
+  for (int view = 0; view < 100; ++view) fuse(memory, {column(0.5F)});
+  for (int view = 0; view < 9; ++view) fuse(memory, {}, 0.2F);
+  ASSERT_NE(memory.decider(), nullptr);
+  for (int view = 0; view < 3; ++view) fuse(memory, {}, 0.2F);
+  EXPECT_EQ(memory.decider(), nullptr);
+}
+
+TEST(CellMemory, SightLineAboveItsTopClearsNothing) {
+  CellMemory memory;
+  fuse(memory, {column(0.5F)});
+  for (int view = 0; view < 1000; ++view) fuse(memory, {}, 0.5F);
+  EXPECT_NE(memory.decider(), nullptr);
+}
+
+TEST(CellMemory, SightLineThroughACellWhereTheObstacleIsSeenClearsNothing) {
+  CellMemory memory;
+  for (int view = 0; view < 1000; ++view) fuse(memory, {plane(0), column(0.5F)}, 0.05F);
+  EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.5F);
+}
+
+TEST(CellMemory, ColumnIsAsHighAsItsHighestView) {
+  CellMemory memory;
+  fuse(memory, {column(0.5F)});
+  fuse(memory, {column(0.2F)});
+  fuse(memory, {column(0.6F)});
+  EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.6F);
+}
+
+TEST(CellMemory, TableTopFirstFloorBelowLater) {
+  CellMemory memory;
+  fuse(memory, {plane(0.7F)});
+  fuse(memory, {plane(0), plane(0.7F)});
+  EXPECT_FLOAT_EQ(memory.lower().z_m, 0);
+  EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.7F);
+}
+
+TEST(CellMemory, NoReturnCountsUntilSomethingIsSeen) {
+  CellMemory memory;
+  for (int view = 0; view < 300; ++view) memory.fuse({.sightings = {}, .no_return = true}, kLimits);
+  EXPECT_EQ(memory.no_return_frames(), 255);
+  fuse(memory, {plane(0)});
+  EXPECT_EQ(memory.no_return_frames(), 0);
+}
+
+}  // namespace
+}  // namespace floornav
