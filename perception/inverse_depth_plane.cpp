@@ -42,4 +42,22 @@ std::optional<InverseDepthPlane> PlaneFit::solve() const {
                            static_cast<float>(mq - a * mx - b * my)};
 }
 
+/// Parallel planes differ by a factor of all three coefficients.
+InverseDepthPlane PlaneFit::solve_parallel(const InverseDepthPlane& plane) const {
+  const double a = static_cast<double>(plane.a), b = static_cast<double>(plane.b),
+               c = static_cast<double>(plane.c);
+  const double with_q = a * xq_ + b * yq_ + c * q_;
+  const double with_itself =
+      a * a * xx_ + b * b * yy_ + c * c * w_ + 2.0 * (a * b * xy_ + a * c * x_ + b * c * y_);
+  const double factor = with_q / with_itself;
+  return {static_cast<float>(factor * a), static_cast<float>(factor * b), static_cast<float>(factor * c)};
+}
+
+double PlaneFit::cost(const InverseDepthPlane& plane) const {
+  const double a = static_cast<double>(plane.a), b = static_cast<double>(plane.b),
+               c = static_cast<double>(plane.c);
+  return qq_ - 2.0 * (a * xq_ + b * yq_ + c * q_) + a * a * xx_ + b * b * yy_ + c * c * w_ +
+         2.0 * (a * b * xy_ + a * c * x_ + b * c * y_);
+}
+
 }  // namespace floornav

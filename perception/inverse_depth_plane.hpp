@@ -34,14 +34,18 @@ class PlaneFit {
     const double w = static_cast<double>(weight);
     const double x = static_cast<double>(ray_x), y = static_cast<double>(ray_y),
                  q = static_cast<double>(inverse_depth);
-    w_ += w, x_ += w * x, y_ += w * y, q_ += w * q;
+    w_ += w, x_ += w * x, y_ += w * y, q_ += w * q, qq_ += w * q * q;
     xx_ += w * x * x, xy_ += w * x * y, yy_ += w * y * y, xq_ += w * x * q, yq_ += w * y * q;
   }
   /// Nothing where the rays do not span a plane.
   [[nodiscard]] std::optional<InverseDepthPlane> solve() const;
+  /// The best one of the planes parallel to `plane`.
+  [[nodiscard]] InverseDepthPlane solve_parallel(const InverseDepthPlane& plane) const;
+  /// Weighted sum of squared residuals.
+  [[nodiscard]] double cost(const InverseDepthPlane& plane) const;
 
  private:
-  double w_ = 0, x_ = 0, y_ = 0, q_ = 0, xx_ = 0, xy_ = 0, yy_ = 0, xq_ = 0, yq_ = 0;
+  double w_ = 0, x_ = 0, y_ = 0, q_ = 0, xx_ = 0, xy_ = 0, yy_ = 0, xq_ = 0, yq_ = 0, qq_ = 0;
 };
 
 }  // namespace floornav

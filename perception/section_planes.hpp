@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "perception/pixel_blocks.hpp"
 #include "perception/plane_pool.hpp"
 #include "perception/ransac.hpp"
 #include "perception/reach.hpp"
@@ -30,8 +31,7 @@ struct SectionScratch {
   PlanePool pool;
   PlanePool floor_pool;
   RansacScratch ransac;
-  std::vector<std::int32_t> block_points;   ///< points of the section in each block of pixels
-  std::vector<std::int32_t> block_inliers;  ///< of the plane in hand
+  PixelBlocks blocks;
 };
 
 /// Recursive RANSAC of one section (section 4.6.1).

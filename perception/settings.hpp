@@ -36,7 +36,7 @@ struct PlaneSettings {
   double max_floor_tilt_deg = 30.0;  ///< steeper normals are not remembered as a section's floor
   double threshold_sigmas = 2.5;     ///< alpha, in standard deviations of the sensor's disparity noise
   int max_hypotheses = 200;          ///< scored a plane
-  int max_planes = 8;                ///< recursion limit: planes a section
+  int max_planes = 12;               ///< recursion limit: planes a section
   int min_points = 60;               ///< fewer points are no plane
   int seed = 1;                      ///< of the random choices
 };

@@ -82,7 +82,8 @@ void SightLineTracer::measure_row(const DepthFrame& frame, int row) {
     const bool at_border = begin == 0 || end == row_.size();
     const float before = begin > 0 ? row_[begin - 1].inverse_depth : 0.0F;
     const float after = end < row_.size() ? row_[end].inverse_depth : 0.0F;
-    const Gap gap{static_cast<std::int32_t>(end - begin), std::max(before, after), at_border};
+    const Gap gap{static_cast<std::int32_t>(end - begin), std::max(before, after), std::min(before, after),
+                  at_border};
     for (; begin < end; ++begin) gap_[begin] = gap;
     ++begin;
   }
@@ -153,7 +154,8 @@ float SightLineTracer::expected_inverse_depth(const Eigen::Vector3f& ray, const 
                      : expected_floor_[static_cast<std::size_t>(section)].inverse_depth(ray.x(), ray.y());
 }
 
-/// True where the image's border or the shadow of something nearer accounts for a missing return.
+/// True where the image's border accounts for a missing return, or the shadow of something nearer, or a
+/// surface in front of the floor that returns nothing.
 bool SightLineTracer::is_explained(int column, float expected_inverse_depth, const SensorView& view) const {
   const Gap& gap = gap_[static_cast<std::size_t>(column)];
   const auto per_disparity = static_cast<float>(view.disparity_per_inverse_depth);
@@ -161,8 +163,10 @@ bool SightLineTracer::is_explained(int column, float expected_inverse_depth, con
   if (gap.at_border &&
       width <= std::max(kBorder_px, per_disparity * expected_inverse_depth) + kShadowMargin_px)
     return true;
+  const float nearer_px = 1.0F / per_disparity;
+  if (gap.farthest_inverse_depth > expected_inverse_depth + nearer_px) return true;
   const float jump = gap.nearest_inverse_depth - expected_inverse_depth;
-  return jump * per_disparity > 1.0F && width <= kShadowFactor * jump * per_disparity + kShadowMargin_px;
+  return jump > nearer_px && width <= kShadowFactor * jump * per_disparity + kShadowMargin_px;
 }
 
 }  // namespace floornav

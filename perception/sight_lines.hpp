@@ -57,9 +57,10 @@ class SightLineTracer {
 
   /// Neighbouring pixels of a row without return.
   struct Gap {
-    std::int32_t width = 0;              ///< px; 0: the pixel returned
-    float nearest_inverse_depth = 0.0F;  ///< 1/m, of the nearer of its two ends
-    bool at_border = false;              ///< of the image
+    std::int32_t width = 0;               ///< px; 0: the pixel returned
+    float nearest_inverse_depth = 0.0F;   ///< 1/m, of the nearer of its two ends
+    float farthest_inverse_depth = 0.0F;  ///< of the other one; 0 at the image's border
+    bool at_border = false;               ///< of the image
   };
 
   RoiSettings roi_;
