@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
+#include <stdexcept>
 
 #include "planner/known_line.hpp"
 #include "planner/path_shape.hpp"
@@ -74,29 +74,36 @@ void Planner::forget() {
 
 Plan Planner::plan(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Plan* previous,
                    const Interrupt& interrupt) {
-  const auto here = T_world_body.translation();
-  const double to_goal_m = std::hypot(goal.x_m - here.x(), goal.y_m - here.y());
-  Plan plan;
-  if (to_goal_m <= std::max(goal.tolerance_m, kReachedCells * map.lattice().pitch_m)) {
-    plan = refusal(PlanStatus::kReached, "the goal is " + in_metres(to_goal_m) + " away");
-  } else if (to_goal_m > settings_.max_distance_m) {
-    plan = refusal(PlanStatus::kNoPath,
-                   "the goal is " + in_metres(to_goal_m) + " away, more than max_distance_m");
-  } else {
-    bring_up_to_date(map, T_world_body, goal);
-    plan = search(T_world_body, goal, previous, interrupt);
-    if (!plan.route.corners.empty()) {
-      DrivablePath path = drivable_path(grid_, map, plan.route, settings_.point_spacing_m, here.z());
-      set_speeds(path.points, settings_, robot_);
-      plan.points = std::move(path.points);
-      plan.length_m = path.length_m;
-      plan.status = path.whole ? PlanStatus::kFollowing : PlanStatus::kFrontier;
-      if (!path.whole) plan.reason = "the floor ahead was not seen yet";
-    }
-  }
+  Plan plan = find_route(map, T_world_body, goal, previous, interrupt);
   plan.map_epoch = map.epoch;
   plan.map_version = map.version;
+  if (plan.route.corners.empty()) return plan;
+  DrivablePath path =
+      drivable_path(grid_, map, plan.route, settings_.point_spacing_m, T_world_body.translation().z());
+  set_speeds(path.points, settings_, robot_);
+  plan.points = std::move(path.points);
+  plan.length_m = path.length_m;
+  plan.status = path.whole ? PlanStatus::kFollowing : PlanStatus::kFrontier;
+  if (!path.whole) plan.reason = "the floor ahead was not seen yet";
   return plan;
+}
+
+/// A plan with a route, or with a status that says why there is none.
+Plan Planner::find_route(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Plan* previous,
+                         const Interrupt& interrupt) {
+  const auto here = T_world_body.translation();
+  const double to_goal_m = std::hypot(goal.x_m - here.x(), goal.y_m - here.y());
+  if (to_goal_m <= std::max(goal.tolerance_m, kReachedCells * map.lattice().pitch_m))
+    return refusal(PlanStatus::kReached, "the goal is " + in_metres(to_goal_m) + " away");
+  if (to_goal_m > settings_.max_distance_m)
+    return refusal(PlanStatus::kNoPath,
+                   "the goal is " + in_metres(to_goal_m) + " away, more than max_distance_m");
+  try {
+    bring_up_to_date(map, T_world_body, goal);
+  } catch (const std::invalid_argument& error) {
+    return refusal(PlanStatus::kNoPath, error.what());
+  }
+  return search(T_world_body, goal, previous, interrupt);
 }
 
 void Planner::bring_up_to_date(const GridMap& map, const Pose& T_world_body, const Goal& goal) {
@@ -119,7 +126,9 @@ void Planner::bring_up_to_date(const GridMap& map, const Pose& T_world_body, con
   const auto margin = static_cast<std::int32_t>(std::ceil(margin_m / lattice.pitch_m));
   const CellRect ends = around(here.x(), here.y(), margin_m).joined(around(goal.x_m, goal.y_m, margin_m));
   const CellRect farthest = around(here.x(), here.y(), settings_.max_distance_m + margin_m);
-  grid_.update(map, seen.grown(margin).joined(ends).clipped(farthest), *assumed_);
+  seen = seen.clipped(farthest);
+  if (!seen.empty()) seen = seen.grown(margin);
+  grid_.update(map, seen.joined(ends).clipped(farthest), *assumed_);
 }
 
 Plan Planner::search(const Pose& T_world_body, const Goal& goal, const Plan* previous,
@@ -138,17 +147,20 @@ Plan Planner::search(const Pose& T_world_body, const Goal& goal, const Plan* pre
                    "no room for the robot within " + in_metres(goal.tolerance_m) + " of the goal");
   }
   const SearchOutcome outcome = a_star_.search(grid_.search_grid(), *start, *target, interrupt);
-  if (outcome == SearchOutcome::kInterrupted)
-    return refusal(PlanStatus::kInterrupted, "the search took too long");
+  auto kept = previous != nullptr ? route_ahead(*previous, here) : std::nullopt;
+  Plan plan;
+  plan.route.origin = grid_.origin();
+  if (outcome == SearchOutcome::kInterrupted) {
+    if (!kept) return refusal(PlanStatus::kInterrupted, "the search took too long");
+    plan.route.corners = *std::move(kept);
+    return plan;
+  }
   if (outcome == SearchOutcome::kNoPath) target = nearest_to_goal(goal, true);
   if (!target) {
     return refusal(PlanStatus::kNoPath,
                    "obstacles shut off all within " + in_metres(goal.tolerance_m) + " of the goal");
   }
-  Plan plan;
-  plan.route = {grid_.origin(), route_to(here, *target, goal)};
-  if (previous == nullptr) return plan;
-  auto kept = route_ahead(*previous, here);
+  plan.route.corners = route_to(here, *target, goal);
   if (kept && distance(kept->back(), plan.route.corners.back()) < kEndCells &&
       route_cost(grid_.search_grid(), *kept) <=
           settings_.keep_path_ratio * route_cost(grid_.search_grid(), plan.route.corners))
@@ -158,7 +170,11 @@ Plan Planner::search(const Pose& T_world_body, const Goal& goal, const Plan* pre
 
 bool Planner::holds(const Plan& plan, const GridMap& map, const Pose& T_world_body, const Goal& goal) {
   if (plan.map_epoch != map.epoch || plan.route.corners.empty()) return false;
-  bring_up_to_date(map, T_world_body, goal);
+  try {
+    bring_up_to_date(map, T_world_body, goal);
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
   const auto here = T_world_body.translation();
   return route_ahead(plan, grid_.point_of(here.x(), here.y())).has_value();
 }

@@ -38,6 +38,8 @@ class Planner {
   void bring_up_to_date(const GridMap& map, const Pose& T_world_body, const Goal& goal);
   [[nodiscard]] std::optional<GridCell> start_near(GridPoint here) const;
   [[nodiscard]] std::optional<GridCell> nearest_to_goal(const Goal& goal, bool settled) const;
+  Plan find_route(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Plan* previous,
+                  const Interrupt& interrupt);
   Plan search(const Pose& T_world_body, const Goal& goal, const Plan* previous, const Interrupt& interrupt);
   std::vector<GridPoint> route_to(GridPoint here, GridCell target, const Goal& goal);
   [[nodiscard]] std::optional<std::vector<GridPoint>> route_ahead(const Plan& plan, GridPoint here) const;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::int64_t kNeverTaken = -2;
 constexpr std::int64_t kNoTile = -1;
+constexpr std::int64_t kMaxCells = 1 << 25;  ///< of some 17 bytes each
 
 std::uint8_t weight_of(double cost) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(cost * SearchGrid::kWeightUnit, 0.0, 255.0)));
@@ -42,6 +43,7 @@ void PlanningGrid::update(const GridMap& map, const CellRect& needed, const Assu
 }
 
 void PlanningGrid::start_afresh(const GridMap& map, const CellRect& needed, const AssumedFloor& assumed) {
+  forget();  // until all below has succeeded
   lattice_ = map.lattice();
   epoch_ = map.epoch;
   assumed_ = assumed;
@@ -56,12 +58,14 @@ void PlanningGrid::start_afresh(const GridMap& map, const CellRect& needed, cons
 
   // Whole tiles, and one around them, so that a map that grows does not start afresh each time.
   constexpr std::int32_t kSide = GridTile::kSide;
-  window_ = {(block_of(needed.x0, kSide) - 1) * kSide, (block_of(needed.y0, kSide) - 1) * kSide,
-             (block_of(needed.x1 - 1, kSide) + 2) * kSide, (block_of(needed.y1 - 1, kSide) + 2) * kSide};
-  if (window_.width() > SearchGrid::kMaxSide || window_.height() > SearchGrid::kMaxSide)
-    throw std::invalid_argument("the map is more than 65535 cells wide");
-  search_.width = window_.width();
-  search_.height = window_.height();
+  const CellRect window{(block_of(needed.x0, kSide) - 1) * kSide, (block_of(needed.y0, kSide) - 1) * kSide,
+                        (block_of(needed.x1 - 1, kSide) + 2) * kSide,
+                        (block_of(needed.y1 - 1, kSide) + 2) * kSide};
+  search_.width = window.width();
+  search_.height = window.height();
+  if (std::int64_t{search_.width} * search_.height > kMaxCells)
+    throw std::invalid_argument("the map and the way to the goal take more than " +
+                                std::to_string(kMaxCells) + " cells");
   search_.steps = kWeightedSteps;
   const auto cells = static_cast<std::size_t>(search_.width) * static_cast<std::size_t>(search_.height);
   floor_.assign(cells, static_cast<std::uint8_t>(Floor::kUnknown));
@@ -78,6 +82,7 @@ void PlanningGrid::start_afresh(const GridMap& map, const CellRect& needed, cons
     gap_weights_[gap] = weight_of(settings_.clearance_cost * std::clamp(1.0 - spare_m / comfort_m, 0.0, 1.0));
   }
   tile_versions_.assign(cells / static_cast<std::size_t>(GridTile::kVertices), kNeverTaken);
+  window_ = window;
 }
 
 /// Copies the tiles that are new, changed or gone; the rectangle that holds them.

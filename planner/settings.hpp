@@ -21,6 +21,7 @@ struct PlannerSettings {
   double creep_speed_mps = 0.1;   ///< along an obstacle
   double map_timeout_ms = 250.0;  ///< without a message of the map the robot stops
   double evidence_timeout_ms = 400.0;  ///< without new evidence in the map the robot stops
+  double valid_for_ms = 250.0;         ///< of a published path, from its receipt on
   double pose_timeout_ms = 250.0;      ///< without a pose the robot stops
 };
 
@@ -40,6 +41,7 @@ void visit_settings(Visitor& visit, PlannerSettings& s) {
   visit("creep_speed_mps", s.creep_speed_mps, Allowed{0.01, 5.0});
   visit("map_timeout_ms", s.map_timeout_ms, Allowed{50.0, 10000.0});
   visit("evidence_timeout_ms", s.evidence_timeout_ms, Allowed{50.0, 10000.0});
+  visit("valid_for_ms", s.valid_for_ms, Allowed{100.0, 2000.0});
   visit("pose_timeout_ms", s.pose_timeout_ms, Allowed{50.0, 10000.0});
 }
 

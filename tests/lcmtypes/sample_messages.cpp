@@ -197,6 +197,7 @@ path_point_t sample_message(std::uint32_t seed) {
   Values v(seed);
   path_point_t m;
   for (float* field : {&m.x, &m.y, &m.z, &m.heading, &m.speed, &m.clearance}) *field = v.real();
+  m.assumed = static_cast<std::int8_t>(v.whole(0, 1));
   return m;
 }
 

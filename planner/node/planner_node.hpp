@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "floornav/path_t.hpp"
+#include "floornav/pose_t.hpp"
+#include "mapping/node/grid_map_message.hpp"
+#include "planner/node/goal_desk.hpp"
+#include "planner/planner.hpp"
+#include "runtime/geometry/pose.hpp"
+#include "runtime/process/node.hpp"
+
+namespace floornav {
+
+/// GRID_MAP, POSE and GOAL in, PATH out: every 80 ms, and at once when a goal comes or goes, the way ahead is
+/// shut or the robot has left it. A stop while the map or the pose is stale, and after a start or a jump of
+/// the pose until something around the robot was seen.
+class PlannerNode final : public Node {
+ public:
+  PlannerNode(const PlannerSettings& settings, const RobotSettings& robot);
+
+  [[nodiscard]] std::string name() const override { return "planner"; }
+  [[nodiscard]] std::vector<std::string> outputs() const override;
+  void subscribe(Inbox& inbox) override;
+  bool step(Micros now, Budget& budget, Outbox& out) override;
+  void tick(Micros now, Outbox& out) override;
+  [[nodiscard]] Micros tick_period() const override { return std::chrono::milliseconds(80); }
+  [[nodiscard]] std::optional<Micros> deadline() const override { return std::chrono::milliseconds(60); }
+  void stop(Micros now, Outbox& out) override;
+  void report(health_t& health) const override;
+
+ private:
+  void accept_map(const grid_map_t& message, Micros now);
+  void accept_pose(const pose_t& message, Micros now);
+  [[nodiscard]] bool must_replan();
+  [[nodiscard]] path_t next_path(Micros now, Budget& budget);
+  [[nodiscard]] path_t plan(Budget& budget);
+  [[nodiscard]] std::optional<path_t> stale(Micros now);
+  [[nodiscard]] bool surroundings_seen();
+  void publish(path_t message, Outbox& out);
+
+  PlannerSettings settings_;
+  Planner planner_;
+  GridMapReceiver map_;
+  GoalDesk goal_;
+  std::optional<Plan> plan_;  ///< that the robot follows
+
+  Pose T_world_body_ = Pose::Identity();
+  std::int64_t pose_utime_us_ = 0;
+  std::optional<Micros> pose_heard_;
+  std::optional<Micros> map_heard_;
+  Micros evidence_heard_{0};        ///< when the map's utime last changed
+  bool surroundings_seen_ = false;  ///< in this epoch of the map
+  bool due_ = false;                ///< a path is due by the tick
+  bool goal_changed_ = false;
+  bool inputs_changed_ = false;  ///< map or pose, since the last look
+
+  std::string trouble_;  ///< why there is a goal and no way to it; empty: there is one, or no goal
+  std::int64_t interrupted_ = 0;
+  std::int64_t old_poses_ = 0;
+};
+
+}  // namespace floornav
