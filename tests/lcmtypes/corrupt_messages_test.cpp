@@ -171,6 +171,12 @@ TEST(CorruptMessage, StringsWithoutTheirEndInArrays) {
   }
 }
 
+TEST(CorruptMessage, NoRoomForAFingerprint) {
+  drop_t drop;
+  const std::vector<std::uint8_t> bytes = encoded(drop);
+  for (int size = -8; size < 8; ++size) EXPECT_LT(drop.decode(bytes.data(), 0, size), 0) << size;
+}
+
 TEST(CorruptMessage, NulInAStringIsNotEncoded) {
   drop_t drop;
   drop.cause = std::string("a\0b", 3);

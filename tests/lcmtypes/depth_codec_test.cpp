@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "tests/real_data.hpp"
+
 namespace floornav {
 namespace {
 
@@ -266,9 +268,7 @@ INSTANTIATE_TEST_SUITE_P(Real, DepthCodecRecordings, testing::Values("tum_fr1_rp
                          [](const auto& info) { return std::string(info.param); });
 
 TEST_P(DepthCodecRecordings, RealImagesComeBackAtHalfTheirSizeOrLess) {
-  const char* data = std::getenv("FLOORNAV_DATA");
-  const std::filesystem::path root = data != nullptr ? data : FLOORNAV_SOURCE_DIR "/../shared/data";
-  const std::filesystem::path folder = root / GetParam() / "depth";
+  const std::filesystem::path folder = real_data(GetParam()) / "depth";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no recording in " << folder;
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))

@@ -330,4 +330,35 @@ terrain_map_t sample_message(std::uint32_t seed) {
   return m;
 }
 
+namespace {
+
+template <class Message>
+class MessageOf final : public AnyMessage {
+ public:
+  [[nodiscard]] std::string name() const override { return Message::getTypeName(); }
+  [[nodiscard]] std::vector<std::uint8_t> sample(std::uint32_t seed) const override {
+    return encoded(sample_message<Message>(seed));
+  }
+  int decode(const std::vector<std::uint8_t>& bytes) override {
+    return message_.decode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  }
+  [[nodiscard]] std::vector<std::uint8_t> encode() const override { return encoded(message_); }
+
+ private:
+  Message message_;
+};
+
+template <class... Messages>
+void append(std::vector<std::unique_ptr<AnyMessage>>& types, std::tuple<Messages...>*) {
+  (types.push_back(std::make_unique<MessageOf<Messages>>()), ...);
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<AnyMessage>> every_message_type() {
+  std::vector<std::unique_ptr<AnyMessage>> types;
+  append(types, static_cast<MessageTypes*>(nullptr));
+  return types;
+}
+
 }  // namespace floornav

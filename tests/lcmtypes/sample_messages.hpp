@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -50,5 +52,22 @@ bool decodes(Message& message, const std::vector<std::uint8_t>& bytes) {
   const auto size = static_cast<int>(bytes.size());
   return message.decode(bytes.data(), 0, size) == size;
 }
+
+/// One of MessageTypes behind a common face. It holds a message and decodes into it again and again, as a
+/// subscriber does.
+class AnyMessage {
+ public:
+  virtual ~AnyMessage() = default;
+  [[nodiscard]] virtual std::string name() const = 0;
+  /// sample_message(seed), encoded.
+  [[nodiscard]] virtual std::vector<std::uint8_t> sample(std::uint32_t seed) const = 0;
+  /// What the generated decode returns.
+  virtual int decode(const std::vector<std::uint8_t>& bytes) = 0;
+  /// The held message, encoded.
+  [[nodiscard]] virtual std::vector<std::uint8_t> encode() const = 0;
+};
+
+/// In the order of MessageTypes.
+std::vector<std::unique_ptr<AnyMessage>> every_message_type();
 
 }  // namespace floornav
