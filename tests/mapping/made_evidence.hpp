@@ -33,6 +33,7 @@ inline FloorEvidence see(const Scene& scene, const Area& area = {}, double pitch
   FloorEvidence evidence;
   evidence.utime_us = 1'000'000;
   evidence.lattice = Lattice{pitch_m};
+  evidence.sections.push_back({.done = true});
   const auto index = [pitch_m](double at_m) {
     return static_cast<std::int32_t>(std::lround(at_m / pitch_m));
   };
@@ -45,6 +46,7 @@ inline FloorEvidence see(const Scene& scene, const Area& area = {}, double pitch
       Surfel surfel;
       surfel.centroid_m = Eigen::Vector3d(x_m, y_m, ground->z_m);
       surfel.normal = Eigen::Vector3d(-ground->rise_x, -ground->rise_y, 1).normalized().cast<float>();
+      surfel.points = 10;
       CellEvidence cell;
       cell.cell = {ix, iy};
       cell.surfel = static_cast<std::int16_t>(evidence.surfels.size());

@@ -1,0 +1,144 @@
+#include "mapping/node/mapper_node.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "lcmtypes/channels.hpp"
+#include "mapping/node/terrain_map_message.hpp"
+#include "runtime/process/health.hpp"
+
+namespace floornav {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kMaxWaiting = 256;  ///< parts of frames
+constexpr Micros kLastPartWait = 100ms;   ///< then the last part is taken for lost
+constexpr std::int64_t kTicksPerTerrain = 10;
+constexpr std::int64_t kTicksUntilStale = 10;
+constexpr double kMaxPosition_m = 1e6;
+
+double stopping_distance_m(const RobotSettings& robot) {
+  return robot.radius_m + robot.max_speed_mps * robot.max_speed_mps / (2 * robot.max_acceleration_mps2);
+}
+
+}  // namespace
+
+MapperNode::MapperNode(const MappingSettings& settings, const RobotSettings& robot)
+    : world_(settings, robot), jumps_(robot), stopping_distance_m_(stopping_distance_m(robot)) {}
+
+std::vector<std::string> MapperNode::outputs() const {
+  return {channel::kGridMap, channel::kTerrainMap};
+}
+
+void MapperNode::subscribe(Inbox& inbox) {
+  inbox.subscribe<surfels_t>(channel::kSurfels, Keep::kAll,
+                             [this](const surfels_t& message, Micros) { accept_part(message); });
+  inbox.subscribe<pose_t>(channel::kPose, Keep::kAll,
+                          [this](const pose_t& pose, Micros) { accept_pose(pose); });
+  inbox.subscribe<map_request_t>(channel::kMapRequest, Keep::kAll,
+                                 [this](const map_request_t& request, Micros) { accept_request(request); });
+}
+
+void MapperNode::accept_part(const surfels_t& message) {
+  waiting_.push_back(to_evidence(message));
+  if (waiting_.size() <= kMaxWaiting) return;
+  waiting_.pop_front();
+  ++drops_["SURFELS overtaken"];
+}
+
+void MapperNode::accept_pose(const pose_t& pose) {
+  const Pose T_world_body = pose_from_arrays(pose.pos, pose.orientation);
+  if (T_world_body.translation().cwiseAbs().maxCoeff() > kMaxPosition_m)
+    throw std::invalid_argument("pose: absurd position");
+  const PoseJumps::Move move = jumps_.take(pose.utime, T_world_body);
+  if (move == PoseJumps::Move::kClockStepped) newest_jump_us_.reset();
+  if (move != PoseJumps::Move::kJump) return;
+  newest_jump_us_ = pose.utime;
+  jumped_ = true;
+}
+
+void MapperNode::accept_request(const map_request_t& request) {
+  const Eigen::Vector2d center_m(request.center[0], request.center[1]);
+  if (!(center_m.cwiseAbs().maxCoeff() <= kMaxPosition_m) || !std::isfinite(request.radius))
+    throw std::invalid_argument("map request: absurd place");
+  schedule_.request(tiles_within(world_.grid(), center_m, request.radius));
+}
+
+void MapperNode::start_epoch_if_jumped(Outbox& out) {
+  if (!std::exchange(jumped_, false)) return;
+  open_.reset();
+  schedule_.clear();
+  changed_terrain_.clear();
+  world_.start_epoch();
+  publish_tiles({}, out);
+}
+
+bool MapperNode::step(Micros now, Budget& /*budget*/, Outbox& out) {
+  start_epoch_if_jumped(out);
+  if (waiting_.empty()) return false;
+  const EvidencePart part = std::move(waiting_.front());
+  waiting_.pop_front();
+  if (newest_jump_us_ && part.evidence.utime_us < *newest_jump_us_) {
+    ++drops_["SURFELS from before a pose jump"];
+    return !waiting_.empty();
+  }
+  if (open_ && !open_->is_of(part.source)) finish_frame(out);
+  if (!open_) open_ = OpenFrame{part.source.cloud_source, part.source.cloud_session, part.source.frame, now};
+  integrate(part);
+  if (part.part == part.parts - 1) finish_frame(out);
+  return !waiting_.empty();
+}
+
+void MapperNode::integrate(const EvidencePart& part) {
+  try {
+    drops_["SURFELS cells impossible or out of range"] += world_.integrate(part.evidence).refused;
+    trouble_.clear();
+    ticks_without_evidence_ = 0;
+  } catch (const std::invalid_argument& error) {
+    ++drops_["SURFELS of another lattice"];
+    trouble_ = error.what();
+  }
+}
+
+void MapperNode::finish_frame(Outbox& out) {
+  open_.reset();
+  const std::vector<CellIndex> changed = world_.refresh();
+  const std::vector<CellIndex> close = tiles_within(world_.grid(), robot_m(), stopping_distance_m_);
+  std::vector<CellIndex> tiles;
+  std::ranges::set_union(changed, close, std::back_inserter(tiles));
+  publish_tiles(tiles, out);
+}
+
+void MapperNode::publish_tiles(const std::vector<CellIndex>& tiles, Outbox& out) {
+  const GridMapHeader header{world_.utime_us(), world_.max_step_m(), world_.T_world_body()};
+  for (grid_map_t& message : to_messages(world_.grid(), tiles, header))
+    out.publish(channel::kGridMap, std::move(message));
+}
+
+void MapperNode::publish_terrain(Outbox& out) {
+  const std::vector<CellIndex> changed = world_.refresh_terrain();
+  const std::vector<CellIndex> around = tiles_within(world_.terrain(), robot_m(), TileSchedule::kRadius_m);
+  std::vector<CellIndex> tiles;
+  std::ranges::set_union(changed, around, std::back_inserter(tiles));
+  for (terrain_map_t& message : to_messages(world_.terrain(), tiles, world_.utime_us()))
+    out.publish(channel::kTerrainMap, std::move(message));
+}
+
+void MapperNode::tick(Micros now, Outbox& out) {
+  ++ticks_without_evidence_;
+  if (open_ && now - open_->begun > kLastPartWait) finish_frame(out);
+  publish_tiles(schedule_.due(world_.grid(), robot_m()), out);
+  if (++ticks_ % kTicksPerTerrain == 0) publish_terrain(out);
+}
+
+void MapperNode::report(health_t& health) const {
+  for (const auto& [cause, count] : drops_) add_drop(health, cause, count);
+  if (!trouble_.empty()) worsen(health, health_t::DEGRADED, trouble_);
+  if (ticks_without_evidence_ > kTicksUntilStale)
+    worsen(health, health_t::DEGRADED, "no SURFELS for a second or more");
+}
+
+}  // namespace floornav
