@@ -58,44 +58,54 @@ void run(DriveOptions& options) {
   log.close();
   write_truth(options.log, scene, robot, options.settings, drive,
               truth_of(scene, robot, options.truth_resolution_m, drive.start.position_m));
-  fmt::print("{}: {} frames of {} x {} and {} poses, {:.1f} s along {:.1f} m of '{}'\n", options.log, drive.frames,
-             options.settings.sensor.camera.width, options.settings.sensor.camera.height, drive.poses, drive.seconds,
-             drive.length_m, scene.name);
+  fmt::print("{}: {} frames of {} x {} and {} poses, {:.1f} s along {:.1f} m of '{}'\n", options.log,
+             drive.frames, options.settings.sensor.camera.width, options.settings.sensor.camera.height,
+             drive.poses, drive.seconds, drive.length_m, scene.name);
 }
 
 }  // namespace
 
 void add_drive_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("drive", "Drive a robot through a scene and log what it sees, truth beside");
+  CLI::App* command =
+      app.add_subcommand("drive", "Drive a robot through a scene and log what it sees, truth beside");
   const auto o = std::make_shared<DriveOptions>();
   command->add_option("--scene", o->scene, "Scene file")->required();
-  command->add_option("-o,--output", o->log, "Log to write; LOG.truth.yaml and LOG.truth.csv come beside it")->required();
+  command->add_option("-o,--output", o->log, "Log to write; LOG.truth.yaml and LOG.truth.csv come beside it")
+      ->required();
   command->add_option("--sensor", o->sensor, "kinect, bumblebee (1280 x 960) or bumblebee-640")
-      ->check(CLI::IsMember({"kinect", "bumblebee", "bumblebee-640"}))->capture_default_str();
+      ->check(CLI::IsMember({"kinect", "bumblebee", "bumblebee-640"}))
+      ->capture_default_str();
   command->add_option("--width", o->width, "Give every n-th pixel only: a divisor of the sensor's width");
   command->add_option("--height", o->height, "To be sure of it: follows from the width");
-  command->add_option("--rate", o->rate_hz, "Frames a second; default: the sensor's")->check(CLI::Range(0.1, 1000.0));
+  command->add_option("--rate", o->rate_hz, "Frames a second; default: the sensor's")
+      ->check(CLI::Range(0.1, 1000.0));
   command->add_option("--seconds", o->settings.seconds, "Default: to the end of the drive")
       ->check(CLI::Range(0.1, 36000.0));
   command->add_option("--seed", o->settings.seed, "Of every noise")->capture_default_str();
   command->add_option("--camera-height", o->camera_height_m, "m above the floor")
-      ->check(CLI::Range(0.05, 3.0))->capture_default_str();
+      ->check(CLI::Range(0.05, 3.0))
+      ->capture_default_str();
   command->add_option("--camera-pitch", o->camera_pitch_deg, "deg down")
-      ->check(CLI::Range(-60.0, 89.0))->capture_default_str();
+      ->check(CLI::Range(-60.0, 89.0))
+      ->capture_default_str();
   command->add_flag("--correlated", o->correlated, "Noise alike within windows, as block matching makes it");
   command->add_option("--distortion", o->distortion_px, "Slow distortion, px of disparity")
       ->check(CLI::Range(0.0, 5.0));
   command->add_option("--pose-rate", o->settings.pose_rate_hz, "Poses a second")
-      ->check(CLI::Range(1.0, 1000.0))->capture_default_str();
-  command->add_option("--pose-noise", o->settings.pose_noise.position_m, "m, 1 sigma")->check(CLI::Range(0.0, 1.0));
-  command->add_option("--angle-noise", o->settings.pose_noise.angle_deg, "deg, 1 sigma")->check(CLI::Range(0.0, 10.0));
+      ->check(CLI::Range(1.0, 1000.0))
+      ->capture_default_str();
+  command->add_option("--pose-noise", o->settings.pose_noise.position_m, "m, 1 sigma")
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--angle-noise", o->settings.pose_noise.angle_deg, "deg, 1 sigma")
+      ->check(CLI::Range(0.0, 10.0));
   command->add_option("--drift", o->settings.pose_noise.drift_per_m, "m per m")->check(CLI::Range(-0.5, 0.5));
   command->add_option("--heading-drift", o->settings.pose_noise.drift_deg_per_m, "deg per sqrt(m)")
       ->check(CLI::Range(0.0, 10.0));
   command->add_option("--latency", o->settings.cloud_latency_s, "s from exposure to arrival")
       ->check(CLI::Range(0.0, 2.0));
   command->add_option("--truth-resolution", o->truth_resolution_m, "m, side of the truth's cells")
-      ->check(CLI::Range(0.01, 1.0))->capture_default_str();
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
   command->callback([o] { run(*o); });
 }
 

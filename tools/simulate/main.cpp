@@ -6,8 +6,9 @@
 #include "tools/simulate/drive_command.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App app("Renders scenes as a Kinect or a Bumblebee would see them, with their errors and the truth beside",
-               "floornav-simulate");
+  CLI::App app(
+      "Renders scenes as a Kinect or a Bumblebee would see them, with their errors and the truth beside",
+      "floornav-simulate");
   app.require_subcommand(1);
   try {
     floornav::add_drive_command(app);

@@ -12,7 +12,7 @@ namespace {
 
 enum Stream : std::uint64_t { kNoise = 1, kMissing = 2, kEdges = 3, kDistortion = 4 };
 
-constexpr float kEdge_px = 1.5F;            ///< neighbours whose disparities differ by more lie on two surfaces
+constexpr float kEdge_px = 1.5F;  ///< neighbours whose disparities differ by more lie on two surfaces
 constexpr double kDepthUnit_m = 0.001;
 constexpr double kContinuousUnit_px = 1.0 / 256.0;
 constexpr float kMostCounts = 65535.0F;
@@ -37,7 +37,8 @@ double disparity_unit(const DisparityNoise& noise) {
 DepthSensor::DepthSensor(const SensorModel& model, std::uint64_t seed)
     : model_(model),
       seed_(seed),
-      focal_baseline_(static_cast<float>(static_cast<double>(model.camera.fx) * model.decimation * model.baseline_m)),
+      focal_baseline_(
+          static_cast<float>(static_cast<double>(model.camera.fx) * model.decimation * model.baseline_m)),
       noise_(model.camera.width, model.camera.height, model.noise.correlation_px / model.decimation),
       depth_(pixels_of(model.camera)),
       disparity_(pixels_of(model.camera)),
@@ -69,8 +70,9 @@ void DepthSensor::distort() {
   }
 }
 
-/// A pixel is hidden from the other eye where a nearer surface on that eye's side projects over it: in rectified views
-/// pixel u is seen at u - e d there (e = +1: other eye to the right), and the order of what is seen does not change.
+/// A pixel is hidden from the other eye where a nearer surface on that eye's side projects over it: in
+/// rectified views pixel u is seen at u - e d there (e = +1: other eye to the right), and the order of what
+/// is seen does not change.
 void DepthSensor::shadow_row(const float* disparity, std::uint8_t* hidden) const {
   const int width = model_.camera.width;
   const auto own_pixels = static_cast<float>(model_.decimation);

@@ -10,8 +10,8 @@
 
 namespace floornav {
 
-/// What a simulated sensor gives. The pixels are counts of `unit`: metres of depth (Kinect, 1 mm as its driver gives)
-/// or pixels of disparity (Bumblebee, its quantum). 0: no measurement.
+/// What a simulated sensor gives. The pixels are counts of `unit`: metres of depth (Kinect, 1 mm as its
+/// driver gives) or pixels of disparity (Bumblebee, its quantum). 0: no measurement.
 class DepthSensor {
  public:
   /// The same model, seed and frame give the same image on every machine.
@@ -30,7 +30,8 @@ class DepthSensor {
   void distort();
   void shadow_row(const float* disparity, std::uint8_t* hidden) const;
   void mix_edges(int v, std::uint64_t key, const float* next, float* disparity) const;
-  void disturb_row(int v, std::uint64_t key, const float* noise, float* disparity, const std::uint8_t* hidden);
+  void disturb_row(int v, std::uint64_t key, const float* noise, float* disparity,
+                   const std::uint8_t* hidden);
   void count_row(const float* disparity, std::uint16_t* out) const;
 
   SensorModel model_;
@@ -38,11 +39,11 @@ class DepthSensor {
   float focal_baseline_;  ///< px m, of the full resolution
   NoiseField noise_;
   std::vector<float> depth_;
-  std::vector<float> disparity_;    ///< exact
+  std::vector<float> disparity_;  ///< exact
   std::vector<float> measured_row_;
   std::vector<float> uniform_row_;
   std::vector<std::uint8_t> hidden_row_;
-  std::vector<float> distortion_;   ///< px, empty without
+  std::vector<float> distortion_;  ///< px, empty without
   std::vector<std::uint16_t> counts_;
 };
 

@@ -19,7 +19,8 @@ double steepest(const RobotSettings& robot) {
   return slope.sin / slope.cos;
 }
 
-/// Whether a wheel gets from one sample to its neighbour: the difference is no more than a step and the slope between.
+/// Whether a wheel gets from one sample to its neighbour: the difference is no more than a step and the slope
+/// between.
 bool passes(const SurfacePoint& a, const SurfacePoint& b, double distance_m, const RobotSettings& robot) {
   const double by_slope = std::max(a.slope, b.slope) * distance_m;
   return std::abs(a.z_m - b.z_m) <= robot.max_step_m + by_slope + kTouch_m;
@@ -29,7 +30,8 @@ bool stands(const SurfacePoint& s, const RobotSettings& robot) {
   return s.slope <= steepest(robot) + kTouch_m && s.clearance_m >= robot.height_m;
 }
 
-/// Judges cells by a square of samples that reaches one sample over each border, so that a step on the border counts.
+/// Judges cells by a square of samples that reaches one sample over each border, so that a step on the border
+/// counts.
 class CellSampler {
  public:
   CellSampler(const Shapes& shapes, const RobotSettings& robot, const Lattice& lattice)
@@ -108,7 +110,8 @@ const TruthCell* TruthGrid::at(const Eigen::Vector2d& place) const {
   return &cells[static_cast<std::size_t>(j * width + i)];
 }
 
-TruthGrid truth_of(const Scene& scene, const RobotSettings& robot, double resolution_m, const Eigen::Vector2d& start) {
+TruthGrid truth_of(const Scene& scene, const RobotSettings& robot, double resolution_m,
+                   const Eigen::Vector2d& start) {
   TruthGrid grid;
   grid.lattice.pitch_m = resolution_m;
   const double inside = 1e-6;

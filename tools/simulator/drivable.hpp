@@ -11,13 +11,14 @@ namespace floornav {
 
 /// The truth about one cell.
 struct TruthCell {
-  float height_m = 0;     ///< mean z of its surface
-  float highest_m = 0;    ///< highest z of all that begins below the robot's height
-  bool standable = false; ///< no step > T crosses it, nowhere too steep, the robot's height free above
-  bool drivable = false;  ///< standable, and reached from the start over steps <= T
+  float height_m = 0;      ///< mean z of its surface
+  float highest_m = 0;     ///< highest z of all that begins below the robot's height
+  bool standable = false;  ///< no step > T crosses it, nowhere too steep, the robot's height free above
+  bool drivable = false;   ///< standable, and reached from the start over steps <= T
 };
 
-/// The truth on a grid of square cells. Cell (ix, iy) of `lattice` is cells[(iy - origin.iy) * width + ix - origin.ix].
+/// The truth on a grid of square cells. Cell (ix, iy) of `lattice` is cells[(iy - origin.iy) * width + ix -
+/// origin.ix].
 struct TruthGrid {
   Lattice lattice;
   CellIndex origin;
@@ -29,8 +30,10 @@ struct TruthGrid {
   [[nodiscard]] const TruthCell* at(const Eigen::Vector2d& place) const;
 };
 
-/// Samples the scene's area every centimetre or finer; steps are judged between neighbouring samples. Where the robot
-/// starts decides what it can reach. The robot is a point here: grow what is not drivable by its footprint.
-TruthGrid truth_of(const Scene& scene, const RobotSettings& robot, double resolution_m, const Eigen::Vector2d& start);
+/// Samples the scene's area every centimetre or finer; steps are judged between neighbouring samples. Where
+/// the robot starts decides what it can reach. The robot is a point here: grow what is not drivable by its
+/// footprint.
+TruthGrid truth_of(const Scene& scene, const RobotSettings& robot, double resolution_m,
+                   const Eigen::Vector2d& start);
 
 }  // namespace floornav

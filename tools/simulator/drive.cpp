@@ -18,7 +18,9 @@ enum Stream : std::uint64_t { kSession = 11, kOdometry = 12, kSensor = 13 };
 
 constexpr double kVelocitySpan_s = 0.02;
 
-std::int64_t micros(double seconds) { return static_cast<std::int64_t>(std::floor(seconds * 1e6 + 0.5)); }
+std::int64_t micros(double seconds) {
+  return static_cast<std::int64_t>(std::floor(seconds * 1e6 + 0.5));
+}
 
 /// Makes the messages of a drive in order of time.
 class Recorder {
@@ -59,7 +61,9 @@ class Recorder {
   }
 
  private:
-  [[nodiscard]] Pose body_at(double time_s) const { return body_on_floor(scene_.fixed, trajectory_.at(time_s)); }
+  [[nodiscard]] Pose body_at(double time_s) const {
+    return body_on_floor(scene_.fixed, trajectory_.at(time_s));
+  }
 
   void write_pose(double time_s) {
     const double half_s = 0.5 * kVelocitySpan_s;

@@ -20,7 +20,7 @@ struct DriveSettings {
   double pose_rate_hz = 50.0;
   double cloud_latency_s = 0.0;  ///< from exposure to arrival in the log
   double pose_latency_s = 0.0;
-  double seconds = 0.0;          ///< 0: to the end of the plan
+  double seconds = 0.0;  ///< 0: to the end of the plan
   std::uint64_t seed = 1;
 };
 
@@ -33,8 +33,9 @@ struct DriveSummary {
   PlanarState end;
 };
 
-/// Drives the robot along the scene's plan and writes what its sensor and its odometry say. The scene must have a drive;
-/// throws std::invalid_argument otherwise.
-DriveSummary record_drive(const Scene& scene, const RobotSettings& robot, const DriveSettings& settings, LogWriter& log);
+/// Drives the robot along the scene's plan and writes what its sensor and its odometry say. The scene must
+/// have a drive; throws std::invalid_argument otherwise.
+DriveSummary record_drive(const Scene& scene, const RobotSettings& robot, const DriveSettings& settings,
+                          LogWriter& log);
 
 }  // namespace floornav

@@ -11,7 +11,9 @@ constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
 
 /// A turn by a small vector of angles (rad).
 Eigen::Matrix3d small_turn(const Eigen::Vector3d& angles) {
-  return Eigen::Quaterniond(1.0, 0.5 * angles.x(), 0.5 * angles.y(), 0.5 * angles.z()).normalized().toRotationMatrix();
+  return Eigen::Quaterniond(1.0, 0.5 * angles.x(), 0.5 * angles.y(), 0.5 * angles.z())
+      .normalized()
+      .toRotationMatrix();
 }
 
 Eigen::Vector3d normal_vector(Random& random, double sigma) {

@@ -9,10 +9,10 @@ namespace floornav {
 
 /// How a robot errs about its own pose.
 struct PoseNoise {
-  double position_m = 0;          ///< 1 sigma of each axis, new at every measurement; 0.01 is a common robot
-  double angle_deg = 0;           ///< 1 sigma of each axis, new at every measurement; 0.3 is a common robot
-  double drift_per_m = 0;         ///< error of the distance travelled, m per m
-  double drift_deg_per_m = 0;     ///< error of the heading: a random walk, deg per sqrt(m)
+  double position_m = 0;       ///< 1 sigma of each axis, new at every measurement; 0.01 is a common robot
+  double angle_deg = 0;        ///< 1 sigma of each axis, new at every measurement; 0.3 is a common robot
+  double drift_per_m = 0;      ///< error of the distance travelled, m per m
+  double drift_deg_per_m = 0;  ///< error of the heading: a random walk, deg per sqrt(m)
 };
 
 /// Turns the true poses, one after the other, into what the robot believes.

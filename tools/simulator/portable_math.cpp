@@ -30,10 +30,14 @@ SinCos sin_cos_deg(double degrees) {
   const double s = sine_series(x);
   const double c = cosine_series(x);
   switch (static_cast<long long>(quarter) & 3) {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
   }
 }
 

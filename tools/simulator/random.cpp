@@ -34,7 +34,8 @@ inline void normal_pair(std::uint32_t a, std::uint32_t b, float& first, float& s
   const float u = static_cast<float>(static_cast<std::int32_t>((a >> 8) + 1)) * 0x1p-24F;  // (0, 1]
   const float radius = std::sqrt(std::fmax(0.0F, -2.0F * natural_log(u)));
   const auto quarter = static_cast<std::int32_t>(b >> 30);
-  const float x = (static_cast<float>(static_cast<std::int32_t>((b >> 7) & 0x7FFFFF)) * 0x1p-23F - 0.5F) * 1.57079633F;
+  const float x =
+      (static_cast<float>(static_cast<std::int32_t>((b >> 7) & 0x7FFFFF)) * 0x1p-23F - 0.5F) * 1.57079633F;
   const float y = x * x;
   const float sine = x * (1.0F + y * (-0.166666667F + y * (8.33333333e-3F - y * 1.98412698e-4F)));
   const float cosine = 1.0F + y * (-0.5F + y * (4.16666667e-2F + y * (-1.38888889e-3F + y * 2.48015873e-5F)));
@@ -52,7 +53,9 @@ std::uint64_t random_key(std::initializer_list<std::uint64_t> parts) {
   return key;
 }
 
-std::uint64_t random_bits(std::uint64_t key, std::uint64_t index) { return mix(key + (index + 1) * kGolden); }
+std::uint64_t random_bits(std::uint64_t key, std::uint64_t index) {
+  return mix(key + (index + 1) * kGolden);
+}
 
 void fill_normals(std::uint64_t key, std::span<float> out) {
   std::array<std::uint32_t, kPairs> a{};
@@ -75,7 +78,9 @@ void fill_uniforms(std::uint64_t key, std::span<float> out) {
     out[i] = static_cast<float>(static_cast<std::int32_t>(random_bits(key, i) >> 40)) * 0x1p-24F;
 }
 
-double Random::uniform() { return static_cast<double>(random_bits(key_, next_++) >> 11) * 0x1p-53; }
+double Random::uniform() {
+  return static_cast<double>(random_bits(key_, next_++) >> 11) * 0x1p-53;
+}
 
 double Random::normal() {
   const std::uint64_t bits = random_bits(key_, next_++);

@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
-// Rays are p(Z) = origin + Z d, with d linear in the pixel's column: each kernel works on one row of one shape within
-// the columns that can see it, branch-free so that the compiler vectorises it.
+// Rays are p(Z) = origin + Z d, with d linear in the pixel's column: each kernel works on one row of one
+// shape within the columns that can see it, branch-free so that the compiler vectorises it.
 
 namespace floornav {
 namespace {
@@ -36,7 +36,8 @@ class Rays {
   [[nodiscard]] Row row(int v) const {
     const double y = (v - static_cast<double>(camera_.cy)) / static_cast<double>(camera_.fy);
     const double x = -static_cast<double>(camera_.cx) / static_cast<double>(camera_.fx);
-    return {(R_ * Eigen::Vector3d(x, y, 1.0)).cast<float>(), (R_.col(0) / static_cast<double>(camera_.fx)).cast<float>()};
+    return {(R_ * Eigen::Vector3d(x, y, 1.0)).cast<float>(),
+            (R_.col(0) / static_cast<double>(camera_.fx)).cast<float>()};
   }
 
   Eigen::Vector3f origin;
@@ -48,7 +49,8 @@ class Rays {
 
 Pose shape_from_world(const Footprint& footprint) {
   Pose T = Pose::Identity();
-  T.linear().topLeftCorner<2, 2>() << footprint.axis.x(), footprint.axis.y(), -footprint.axis.y(), footprint.axis.x();
+  T.linear().topLeftCorner<2, 2>() << footprint.axis.x(), footprint.axis.y(), -footprint.axis.y(),
+      footprint.axis.x();
   T.translation().head<2>() = -(T.linear().topLeftCorner<2, 2>() * footprint.center_m);
   return T;
 }
@@ -61,7 +63,8 @@ PixelBounds bounds_of(const Footprint& footprint, double bottom_m, double top_m,
   for (std::size_t i = 0; i < 8; ++i) {
     const Eigen::Vector2d xy = footprint.world({(i & 1) != 0 ? footprint.half_m.x() : -footprint.half_m.x(),
                                                 (i & 2) != 0 ? footprint.half_m.y() : -footprint.half_m.y()});
-    corners[i] = (T_sensor_world * Eigen::Vector3d(xy.x(), xy.y(), (i & 4) != 0 ? top_m : bottom_m)).cast<float>();
+    corners[i] =
+        (T_sensor_world * Eigen::Vector3d(xy.x(), xy.y(), (i & 4) != 0 ? top_m : bottom_m)).cast<float>();
   }
   Eigen::AlignedBox2f seen;
   for (std::size_t i = 0; i < 8; ++i) {
@@ -89,8 +92,12 @@ inline Column direction(const Rays::Row& row, int u) {
   return {row.base.x() + f * row.step.x(), row.base.y() + f * row.step.y(), row.base.z() + f * row.step.z()};
 }
 
-inline float lesser(float a, float b) { return a < b ? a : b; }
-inline float greater(float a, float b) { return a > b ? a : b; }
+inline float lesser(float a, float b) {
+  return a < b ? a : b;
+}
+inline float greater(float a, float b) {
+  return a > b ? a : b;
+}
 
 /// A half-space {p : n.p <= c} narrows the ray's stretch [enter, exit]; `room` = c - n.origin, `rate` = n.d.
 inline void cut(float room, float rate, float& enter, float& exit) {
@@ -116,7 +123,8 @@ float* row_of(std::span<float> depth, const Pinhole& camera, int v) {
   return depth.data() + static_cast<std::ptrdiff_t>(v) * camera.width;
 }
 
-void cast_ground(const Ground& ground, const Pinhole& camera, const Pose& T_world_sensor, std::span<float> depth) {
+void cast_ground(const Ground& ground, const Pinhole& camera, const Pose& T_world_sensor,
+                 std::span<float> depth) {
   const Rays rays(camera, T_world_sensor);
   const Eigen::Vector2f slope = ground.slope.cast<float>();
   const auto room = static_cast<float>(ground.slope.dot(T_world_sensor.translation().head<2>()) -
@@ -132,12 +140,12 @@ void cast_ground(const Ground& ground, const Pinhole& camera, const Pose& T_worl
   }
 }
 
-/// Where the ground's hit lies in the hole, the ray goes on to its walls or bottom. `depth` holds the ground alone.
+/// Where the ground's hit lies in the hole, the ray goes on to its walls or bottom. `depth` holds the ground
+/// alone.
 void cast_hole(const Hole& hole, const Ground& ground, const Pinhole& camera, const Pose& T_world_sensor,
                std::span<float> depth) {
   const Footprint& footprint = hole.footprint;
-  const double rim_m =
-      ground.z_m(footprint.center_m) + footprint.half_m.norm() * ground.slope.norm();
+  const double rim_m = ground.z_m(footprint.center_m) + footprint.half_m.norm() * ground.slope.norm();
   const PixelBounds box = bounds_of(footprint, hole.bottom_m, rim_m, camera, T_world_sensor);
   const Rays rays(camera, shape_from_world(footprint) * T_world_sensor);
   const Eigen::Vector3f o = rays.origin;
@@ -160,8 +168,10 @@ void cast_hole(const Hole& hole, const Ground& ground, const Pinhole& camera, co
   }
 }
 
-void cast_block(const Block& block, const Pinhole& camera, const Pose& T_world_sensor, std::span<float> depth) {
-  const PixelBounds box = bounds_of(block.footprint, block.bottom_m, block.highest_m(), camera, T_world_sensor);
+void cast_block(const Block& block, const Pinhole& camera, const Pose& T_world_sensor,
+                std::span<float> depth) {
+  const PixelBounds box =
+      bounds_of(block.footprint, block.bottom_m, block.highest_m(), camera, T_world_sensor);
   const Pose T_shape_sensor = shape_from_world(block.footprint) * T_world_sensor;
   const Rays rays(camera, T_shape_sensor);
   const Eigen::Vector3d origin = T_shape_sensor.translation();
@@ -236,7 +246,8 @@ float march(const Waves& waves, const Eigen::Vector3f& o, const Column& d, float
   return kNoHit;
 }
 
-void cast_waves(const Waves& waves, const Pinhole& camera, const Pose& T_world_sensor, std::span<float> depth) {
+void cast_waves(const Waves& waves, const Pinhole& camera, const Pose& T_world_sensor,
+                std::span<float> depth) {
   const double crest_m = waves.base_m + waves.amplitude_m;
   const PixelBounds box = bounds_of(waves.footprint, waves.base_m, crest_m, camera, T_world_sensor);
   const Rays rays(camera, shape_from_world(waves.footprint) * T_world_sensor);
@@ -260,13 +271,15 @@ void cast_waves(const Waves& waves, const Pinhole& camera, const Pose& T_world_s
 
 }  // namespace
 
-void cast_depth(const Shapes& shapes, const Pinhole& camera, const Pose& T_world_sensor, std::span<float> depth) {
+void cast_depth(const Shapes& shapes, const Pinhole& camera, const Pose& T_world_sensor,
+                std::span<float> depth) {
   cast_ground(shapes.ground, camera, T_world_sensor, depth);
   for (const Hole& hole : shapes.holes) cast_hole(hole, shapes.ground, camera, T_world_sensor, depth);
   cast_solids(shapes, camera, T_world_sensor, depth);
 }
 
-void cast_solids(const Shapes& shapes, const Pinhole& camera, const Pose& T_world_sensor, std::span<float> depth) {
+void cast_solids(const Shapes& shapes, const Pinhole& camera, const Pose& T_world_sensor,
+                 std::span<float> depth) {
   for (const Block& block : shapes.blocks) cast_block(block, camera, T_world_sensor, depth);
   for (const Cylinder& cylinder : shapes.cylinders) cast_cylinder(cylinder, camera, T_world_sensor, depth);
   for (const Waves& waves : shapes.waves) cast_waves(waves, camera, T_world_sensor, depth);

@@ -26,7 +26,8 @@ void add_person(const Person& person, double ground_m, double time_s, std::vecto
   const double foot_m = kStepReach_m * (2.0 * to_and_fro(walked_m / kStride_m) - 1.0);
   const double h = person.height_m;
   for (const double side : {-1.0, 1.0})
-    cylinders.push_back({body + side * (foot_m * ahead + 0.5 * kHipWidth_m * left), 0.07, ground_m, ground_m + 0.47 * h});
+    cylinders.push_back(
+        {body + side * (foot_m * ahead + 0.5 * kHipWidth_m * left), 0.07, ground_m, ground_m + 0.47 * h});
   cylinders.push_back({body, 0.17, ground_m + 0.47 * h, ground_m + 0.84 * h});
   cylinders.push_back({body, 0.10, ground_m + 0.84 * h, ground_m + h});
 }

@@ -19,7 +19,8 @@ struct Person {
   double start_s = 0;  ///< stands at `from` until then
 };
 
-/// The way that the robot is driven in an open loop: a smooth curve (cubic B-spline) that follows the waypoints.
+/// The way that the robot is driven in an open loop: a smooth curve (cubic B-spline) that follows the
+/// waypoints.
 struct DrivePlan {
   std::vector<Eigen::Vector2d> waypoints_m;
   double speed_mps = 0.8;

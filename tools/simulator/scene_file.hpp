@@ -7,8 +7,9 @@
 
 namespace floornav {
 
-/// Reads a scene file (YAML; tools/simulator/scenes/README.md lists its keys). Throws SceneError with file, key and
-/// reason for one that cannot be read, has an unknown key, an impossible value or things that contradict each other.
+/// Reads a scene file (YAML; tools/simulator/scenes/README.md lists its keys). Throws SceneError with file,
+/// key and reason for one that cannot be read, has an unknown key, an impossible value or things that
+/// contradict each other.
 Scene load_scene(const std::string& path);
 
 /// The same from text; `name` stands for the file in messages.

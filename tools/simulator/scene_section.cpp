@@ -94,7 +94,8 @@ std::vector<Eigen::Vector2d> SceneSection::points(const std::string& key, std::s
   std::vector<Eigen::Vector2d> result;
   for (const YAML::Node& element : node) {
     if (!element.IsSequence() || element.size() != 2) refuse(key, "must be a list of points, each [x, y]");
-    result.emplace_back(checked_number(key, element[0], kCoordinate), checked_number(key, element[1], kCoordinate));
+    result.emplace_back(checked_number(key, element[0], kCoordinate),
+                        checked_number(key, element[1], kCoordinate));
   }
   return result;
 }
@@ -113,7 +114,8 @@ std::vector<SceneSection> SceneSection::sections(const std::string& key) {
 }
 
 std::string SceneSection::only_key() {
-  if (node_.size() != 1 || !node_.begin()->first.IsScalar()) refuse("", "must have one key, the kind of thing it is");
+  if (node_.size() != 1 || !node_.begin()->first.IsScalar())
+    refuse("", "must have one key, the kind of thing it is");
   return node_.begin()->first.Scalar();
 }
 

@@ -18,10 +18,12 @@ struct SceneError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One map of a scene file. Every key that is asked for is checked; finish() refuses the ones that nobody asked for.
+/// One map of a scene file. Every key that is asked for is checked; finish() refuses the ones that nobody
+/// asked for.
 class SceneSection {
  public:
-  /// `where` is the place in the file that messages name, e.g. "objects[3].box". Throws SceneError unless a map.
+  /// `where` is the place in the file that messages name, e.g. "objects[3].box". Throws SceneError unless a
+  /// map.
   SceneSection(std::string file, std::string where, YAML::Node node);
 
   /// Whether an optional key is there.

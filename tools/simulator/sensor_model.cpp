@@ -15,7 +15,8 @@ constexpr double kDefaultPitch_deg = 20.0;
 Pinhole decimated(const Pinhole& full, int n) {
   const auto f = static_cast<float>(n);
   const float shift = 0.5F * (f - 1.0F);
-  return {full.fx / f, full.fy / f, (full.cx - shift) / f, (full.cy - shift) / f, full.width / n, full.height / n};
+  return {full.fx / f,           full.fy / f,    (full.cx - shift) / f,
+          (full.cy - shift) / f, full.width / n, full.height / n};
 }
 
 int decimation_of(const Pinhole& full, int width) {

@@ -9,8 +9,8 @@ namespace floornav {
 /// A rectangle on the ground, turned by its heading.
 struct Footprint {
   Eigen::Vector2d center_m{0, 0};
-  Eigen::Vector2d axis{1, 0};     ///< unit vector of the rectangle's own x axis
-  Eigen::Vector2d half_m{0, 0};   ///< half its size along its own x and y
+  Eigen::Vector2d axis{1, 0};    ///< unit vector of the rectangle's own x axis
+  Eigen::Vector2d half_m{0, 0};  ///< half its size along its own x and y
 
   /// A point of the world in the rectangle's own axes, from its centre.
   [[nodiscard]] Eigen::Vector2d local(const Eigen::Vector2d& world) const {
@@ -21,7 +21,8 @@ struct Footprint {
     return center_m + local.x() * axis + local.y() * Eigen::Vector2d(-axis.y(), axis.x());
   }
   [[nodiscard]] bool contains(const Eigen::Vector2d& local) const {
-    return local.x() >= -half_m.x() && local.x() <= half_m.x() && local.y() >= -half_m.y() && local.y() <= half_m.y();
+    return local.x() >= -half_m.x() && local.x() <= half_m.x() && local.y() >= -half_m.y() &&
+           local.y() <= half_m.y();
   }
 };
 
@@ -40,9 +41,9 @@ struct Hole {
 /// Everything between a level bottom and a plane on top: boxes, walls, steps, ramps, table tops.
 struct Block {
   Footprint footprint;
-  double bottom_m = 0;            ///< z
-  double top_m = 0;               ///< z over the footprint's centre
-  Eigen::Vector2d slope{0, 0};    ///< of the top, along the footprint's own axes
+  double bottom_m = 0;          ///< z
+  double top_m = 0;             ///< z over the footprint's centre
+  Eigen::Vector2d slope{0, 0};  ///< of the top, along the footprint's own axes
 
   [[nodiscard]] double top_at(const Eigen::Vector2d& local) const { return top_m + slope.dot(local); }
   /// The highest point of the top.
@@ -57,7 +58,8 @@ struct Cylinder {
   double top_m = 0;     ///< z
 };
 
-/// Carpet: waves along the footprint's own x axis, each from base_m up to base_m + amplitude_m and down again.
+/// Carpet: waves along the footprint's own x axis, each from base_m up to base_m + amplitude_m and down
+/// again.
 struct Waves {
   Footprint footprint;
   double base_m = 0;       ///< z

@@ -54,7 +54,8 @@ Layer ground_at(const Shapes& shapes, const Eigen::Vector2d& place) {
 SurfacePoint surface_at(const Shapes& shapes, const Eigen::Vector2d& place) {
   Layers layers = layers_at(shapes, place);
   const auto end = layers.layer.begin() + static_cast<std::ptrdiff_t>(layers.count);
-  std::sort(layers.layer.begin(), end, [](const Layer& a, const Layer& b) { return a.bottom_m < b.bottom_m; });
+  std::sort(layers.layer.begin(), end,
+            [](const Layer& a, const Layer& b) { return a.bottom_m < b.bottom_m; });
   const Layer ground = ground_at(shapes, place);
   SurfacePoint surface{ground.top_m, ground.slope};
   for (auto layer = layers.layer.begin(); layer != end; ++layer) {

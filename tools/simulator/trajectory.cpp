@@ -57,7 +57,8 @@ PlanarState Trajectory::at(double time_s) const {
   const double fraction = std::clamp((arc - arc_m_[i - 1]) / (arc_m_[i] - arc_m_[i - 1]), 0.0, 1.0);
   // the direction is blended between the pieces before and after, so that it turns without jerks
   const auto piece = [this](std::size_t k) { return (points_[k] - points_[k - 1]).normalized(); };
-  const std::size_t neighbour = fraction < 0.5 ? std::max<std::size_t>(i, 2) - 1 : std::min(i + 1, points_.size() - 1);
+  const std::size_t neighbour =
+      fraction < 0.5 ? std::max<std::size_t>(i, 2) - 1 : std::min(i + 1, points_.size() - 1);
   const double weight = std::fabs(fraction - 0.5);
   return {points_[i - 1] + fraction * (points_[i] - points_[i - 1]),
           ((1.0 - weight) * piece(i) + weight * piece(neighbour)).normalized()};

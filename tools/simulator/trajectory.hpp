@@ -14,8 +14,8 @@ struct PlanarState {
   Eigen::Vector2d ahead{1, 0};  ///< unit vector
 };
 
-/// A smooth drive along a plan: a cubic B-spline from the first waypoint to the last, from standstill to standstill at a
-/// constant acceleration.
+/// A smooth drive along a plan: a cubic B-spline from the first waypoint to the last, from standstill to
+/// standstill at a constant acceleration.
 class Trajectory {
  public:
   Trajectory(const DrivePlan& plan, double acceleration_mps2);

@@ -24,8 +24,8 @@ std::string state_text(const PlanarState& state) {
 
 std::string header(const Scene& scene, const RobotSettings& robot, const DriveSettings& settings,
                    const DriveSummary& drive, const TruthGrid& truth, const std::string& csv) {
-  std::string text = fmt::format("scene: \"{}\"\nseed: {}\nseconds: {:.3f}\nframes: {}\nposes: {}\n", scene.name,
-                                 settings.seed, drive.seconds, drive.frames, drive.poses);
+  std::string text = fmt::format("scene: \"{}\"\nseed: {}\nseconds: {:.3f}\nframes: {}\nposes: {}\n",
+                                 scene.name, settings.seed, drive.seconds, drive.frames, drive.poses);
   text += "start: " + state_text(drive.start) + "\nend: " + state_text(drive.end) + "\n";
   if (scene.goal_m) text += fmt::format("goal_m: [{}, {}]\n", scene.goal_m->x(), scene.goal_m->y());
   text += fmt::format("robot: {{height_m: {}, max_step_m: {}, max_slope_deg: {}}}\n", robot.height_m,

@@ -10,7 +10,8 @@ namespace {
 constexpr int kSamples = 8;
 
 /// Mean height of the floor under a wheel.
-double wheel_height(const Shapes& shapes, const Eigen::Vector2d& hub, const Eigen::Vector2d& ahead, double reach_m) {
+double wheel_height(const Shapes& shapes, const Eigen::Vector2d& hub, const Eigen::Vector2d& ahead,
+                    double reach_m) {
   double sum = 0;
   for (int i = 0; i < kSamples; ++i)
     sum += surface_at(shapes, hub + (2.0 * (i + 0.5) / kSamples - 1.0) * reach_m * ahead).z_m;
@@ -23,7 +24,8 @@ Pose body_on_floor(const Shapes& shapes, const PlanarState& state, const Underca
   const Eigen::Vector2d ahead = state.ahead;
   const Eigen::Vector2d left(-ahead.y(), ahead.x());
   const auto height = [&](double x, double y) {
-    const Eigen::Vector2d hub = state.position_m + 0.5 * wheels.wheelbase_m * x * ahead + 0.5 * wheels.track_m * y * left;
+    const Eigen::Vector2d hub =
+        state.position_m + 0.5 * wheels.wheelbase_m * x * ahead + 0.5 * wheels.track_m * y * left;
     return wheel_height(shapes, hub, ahead, wheels.wheel_reach_m);
   };
   const double front_left = height(1, 1);
