@@ -40,6 +40,7 @@ class NearestDistances {
     squared_[capacity_ - 1] = std::numeric_limits<float>::max();
   }
   bool addPoint(float squared, std::uint32_t) {
+    if (squared >= worstDist()) return true;
     std::size_t i = std::min(count_, capacity_ - 1);
     for (; i > 0 && squared_[i - 1] > squared; --i) squared_[i] = squared_[i - 1];
     squared_[i] = squared;
