@@ -9,6 +9,8 @@ namespace {
 /// Twice the area of the triangle of three rays below which they determine no plane (about 7 x 7 pixels of a
 /// Kinect).
 constexpr float kMinTriangle = 2e-4F;
+/// Least part of the normal along the ray.
+constexpr float kMinAlongRay = 1e-3F;
 /// Least deviation of the rays across their main direction, in rays at depth 1 (about one pixel).
 constexpr double kMinDeviation = 1e-3;
 
@@ -25,6 +27,13 @@ std::optional<InverseDepthPlane> plane_through(const Eigen::Vector3f& p, const E
   plane.b = (u.x() * v.z() - u.z() * v.x()) / det;
   plane.c = p.z() - plane.a * p.x() - plane.b * p.y();
   return plane;
+}
+
+std::optional<InverseDepthPlane> plane_through(const Eigen::Vector3f& p, const Eigen::Vector3f& normal) {
+  const float along_ray = normal.x() * p.x() + normal.y() * p.y() + normal.z();
+  if (!(std::abs(along_ray) >= kMinAlongRay)) return std::nullopt;
+  const Eigen::Vector3f coefficients = normal * (p.z() / along_ray);
+  return InverseDepthPlane{coefficients.x(), coefficients.y(), coefficients.z()};
 }
 
 std::optional<InverseDepthPlane> PlaneFit::solve() const {

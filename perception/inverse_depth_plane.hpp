@@ -27,6 +27,10 @@ std::optional<InverseDepthPlane> plane_through(
     const Eigen::Vector3f& p, const Eigen::Vector3f& q,
     const Eigen::Vector3f& r);  // each: ray_x, ray_y, inverse depth
 
+/// The plane through one measurement (ray_x, ray_y, inverse depth) with this normal of the sensor frame;
+/// nothing where it runs along the ray.
+std::optional<InverseDepthPlane> plane_through(const Eigen::Vector3f& p, const Eigen::Vector3f& normal);
+
 /// Weighted least squares of inverse depth over the ray.
 class PlaneFit {
  public:

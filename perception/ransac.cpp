@@ -8,8 +8,12 @@ namespace floornav {
 namespace {
 
 constexpr std::size_t kSampleSize = 2048;
+constexpr std::size_t kPointsPerMean = 4;
 constexpr int kAttemptsPerHypothesis = 8;
 constexpr float kMissProbability = 0.01F;
+constexpr float kMinHypotheses =
+    50.0F;  ///< the best of several planes that compete is found by comparing enough
+constexpr float kWorthRefining = 0.8F;  ///< of the best gain so far
 constexpr int kLocalRefinements = 2;
 constexpr int kFinalRefinements = 4;
 
@@ -31,24 +35,42 @@ Score score_of(const PlanePool& sample, const InverseDepthPlane& plane, float th
   return {gain, static_cast<float>(inliers) / static_cast<float>(sample.size())};
 }
 
-/// One point of each of equal pieces of the pool, so that the sample covers the section evenly.
+/// Mean of a few points that follow each other: if they are on a plane so is their mean, with less noise. So
+/// planes a little apart compete more clearly.
+void add_mean(const PlanePool& pool, std::size_t first, PlanePool& sample) {
+  const std::size_t count = std::min(kPointsPerMean, pool.size() - first);
+  float ray_x = 0.0F, ray_y = 0.0F, inverse_depth = 0.0F, certainty = 0.0F;
+  for (std::size_t i = first; i < first + count; ++i) {
+    ray_x += pool.ray_x[i];
+    ray_y += pool.ray_y[i];
+    inverse_depth += pool.inverse_depth[i];
+    certainty += pool.certainty[i];
+  }
+  const float share = 1.0F / static_cast<float>(count);
+  sample.add(ray_x * share, ray_y * share, inverse_depth * share, certainty * std::sqrt(share),
+             pool.point[first]);
+}
+
+/// One mean of each of equal pieces of the pool, so that the sample covers the section evenly.
 void draw_sample(const PlanePool& pool, Random& random, PlanePool& sample) {
   sample.clear();
   const std::size_t count = std::min(kSampleSize, pool.size());
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t begin = i * pool.size() / count;
     const std::size_t end = (i + 1) * pool.size() / count;
-    const std::size_t p = begin + random.below(end - begin);
-    sample.add(pool.ray_x[p], pool.ray_y[p], pool.inverse_depth[p], pool.certainty[p], pool.point[p]);
+    add_mean(pool, begin + random.below(end - begin), sample);
   }
 }
 
-std::optional<InverseDepthPlane> hypothesis(const PlanePool& sample, Random& random) {
+/// Through three points; where the normal is known, each second one through one point, with that normal.
+std::optional<InverseDepthPlane> hypothesis(const PlanePool& sample, const PlaneQuery& query, int attempt,
+                                            Random& random) {
   const auto draw = [&] {
     const std::size_t i = random.below(sample.size());
     return Eigen::Vector3f(sample.ray_x[i], sample.ray_y[i], sample.inverse_depth[i]);
   };
   const Eigen::Vector3f p = draw();
+  if (query.expected_normal && attempt % 2 == 0) return plane_through(p, *query.expected_normal);
   const Eigen::Vector3f q = draw();
   const Eigen::Vector3f r = draw();
   return plane_through(p, q, r);
@@ -57,8 +79,8 @@ std::optional<InverseDepthPlane> hypothesis(const PlanePool& sample, Random& ran
 /// Number of hypotheses after which one of inliers alone was likely among them.
 float hypotheses_needed(float inlier_share) {
   const float all_inliers = inlier_share * inlier_share * inlier_share;
-  if (all_inliers >= 1.0F) return 1.0F;
-  return std::log(kMissProbability) / std::log1p(-all_inliers);
+  if (all_inliers >= 1.0F) return kMinHypotheses;
+  return std::max(kMinHypotheses, std::log(kMissProbability) / std::log1p(-all_inliers));
 }
 
 struct Candidate {
@@ -98,12 +120,14 @@ std::optional<InverseDepthPlane> find_plane(const PlanePool& pool, const PlaneQu
   int scored = 0;
   for (int attempt = 0; attempt < kAttemptsPerHypothesis * query.max_hypotheses; ++attempt) {
     if (static_cast<float>(scored) >= needed) break;
-    const auto plane = hypothesis(scratch.sample, random);
+    const auto plane = hypothesis(scratch.sample, query, attempt, random);
     if (!plane || !query.admits(*plane)) continue;
     const Score score = score_of(scratch.sample, *plane, query.threshold_sigmas);
     ++scored;
-    if (best && score.gain <= best->score.gain) continue;
-    best = refined_on_sample(scratch.sample, query, {*plane, score});
+    if (best && score.gain < kWorthRefining * best->score.gain) continue;
+    const Candidate refined = refined_on_sample(scratch.sample, query, {*plane, score});
+    if (best && refined.score.gain <= best->score.gain) continue;
+    best = refined;
     needed = std::min(needed, hypotheses_needed(best->score.inliers));
   }
   if (!best) return std::nullopt;

@@ -14,9 +14,9 @@ namespace floornav {
 struct PlaneQuery {
   float threshold_sigmas = 2.5F;  ///< alpha
   int max_hypotheses = 200;
-  /// In the sensor frame: only planes whose normal is within the tolerance of it. Nothing: any inclination.
+  /// In the sensor frame: planes with this normal are tried besides any others.
   std::optional<Eigen::Vector3f> expected_normal;
-  float cos_tolerance = 0.0F;  ///< cosine of E
+  float cos_tolerance = -1.0F;  ///< cosine of E: least cosine between a plane's normal and the expected one
 
   [[nodiscard]] bool admits(const InverseDepthPlane& plane) const {
     return !expected_normal || plane.normal().dot(*expected_normal) >= cos_tolerance;

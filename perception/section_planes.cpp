@@ -144,6 +144,7 @@ struct SectionPlaneFinder::Search {
     PlaneQuery query;
     query.threshold_sigmas = threshold();
     query.max_hypotheses = finder.settings_.max_hypotheses;
+    if (!planes.empty()) query.expected_normal = planes.front().plane.normal();
     for (int pass = 0; pass < finder.settings_.max_planes; ++pass) {
       if (static_cast<int>(scratch.pool.size()) < finder.settings_.min_points) return;
       const auto found = find_plane(scratch.pool, query, random, scratch.ransac);

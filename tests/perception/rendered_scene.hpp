@@ -20,13 +20,14 @@ struct Box {
   Eigen::Vector3d low, high;
 };
 
-/// Rendered by the closed form of a ray's way through boxes (slabs); shares nothing with perception but the frame type.
+/// Rendered by the closed form of a ray's way through boxes (slabs); shares nothing with perception but the
+/// frame type.
 struct RenderedScene {
   std::vector<Box> boxes;
-  double floor_slope = 0.0;     ///< the endless floor: z = floor_slope * x
+  double floor_slope = 0.0;  ///< the endless floor: z = floor_slope * x
   bool has_floor = true;
-  std::optional<Box> hole;      ///< no floor within its x and y
-  double noise_px = 0.067;      ///< 1 sigma of disparity
+  std::optional<Box> hole;  ///< no floor within its x and y
+  double noise_px = 0.067;  ///< 1 sigma of disparity
   double missing_share = 0.0;
   unsigned seed = 1;
 
@@ -61,7 +62,8 @@ struct RenderedScene {
     for (const Box& box : boxes) {
       double enter = 0.0, leave = nearest;
       for (int axis = 0; axis < 3; ++axis) {
-        const double a = (box.low[axis] - origin[axis]) / ray[axis], b = (box.high[axis] - origin[axis]) / ray[axis];
+        const double a = (box.low[axis] - origin[axis]) / ray[axis],
+                     b = (box.high[axis] - origin[axis]) / ray[axis];
         enter = std::max(enter, std::min(a, b));
         leave = std::min(leave, std::max(a, b));
       }
@@ -79,8 +81,7 @@ struct RenderedScene {
     pixels.assign(static_cast<std::size_t>(camera.width * camera.height), 0);
     for (int v = 0; v < camera.height; ++v)
       for (int u = 0; u < camera.width; ++u) {
-        const Eigen::Vector3d ray =
-            camera.ray(static_cast<float>(u), static_cast<float>(v)).cast<double>();
+        const Eigen::Vector3d ray = camera.ray(static_cast<float>(u), static_cast<float>(v)).cast<double>();
         const double depth = depth_along(T_world_sensor.translation(), T_world_sensor.linear() * ray);
         if (!std::isfinite(depth) || share(generator) < missing_share) continue;
         const double disparity = per_inverse_depth / depth + noise_px * noise(generator);
