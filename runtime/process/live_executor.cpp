@@ -52,11 +52,13 @@ LiveExecutor::LiveExecutor(Node& node, Transport& transport, LiveOptions options
 
 void LiveExecutor::run(const std::atomic<bool>& stop) {
   subscribe();
+  node_.set_wake([this] { mailbox_.wake(); });
   {
     const std::jthread bus([this](const std::stop_token& token) { listen(token); });
     last_mail_ = last_health_ = last_look_ = std::chrono::steady_clock::now();
     while (!stop) turn();
   }
+  node_.set_wake({});
   guard("stop", [this] { node_.stop(node_time(std::chrono::steady_clock::now()), out_); });
   publish();
 }

@@ -51,12 +51,21 @@ void Mailbox::put_all(Slot& slot, Held held) {
   }
 }
 
+void Mailbox::wake() {
+  {
+    const std::scoped_lock lock(mutex_);
+    woken_ = true;
+  }
+  arrived_.notify_one();
+}
+
 std::vector<Mail> Mailbox::take(std::chrono::steady_clock::time_point deadline) {
   const auto earlier = [](const Held& a, const Held& b) { return a.order < b.order; };
   std::vector<Held> taken;
   {
     std::unique_lock lock(mutex_);
-    arrived_.wait_until(lock, deadline, [this] { return waiting_ > 0; });
+    arrived_.wait_until(lock, deadline, [this] { return waiting_ > 0 || woken_; });
+    woken_ = false;
     for (auto& [channel, slot] : slots_) {
       const std::size_t first = taken.size();
       std::move(slot.held.begin(), slot.held.end(), std::back_inserter(taken));

@@ -39,6 +39,9 @@ class Mailbox {
   /// A channel that is not open is ignored.
   void put(std::string_view channel, std::span<const std::uint8_t> bytes);
 
+  /// Ends the wait of the current or the next take().
+  void wake();
+
   /// All that is there, in the order of arrival. Waits for something until `deadline`.
   std::vector<Mail> take(std::chrono::steady_clock::time_point deadline);
 
@@ -62,6 +65,7 @@ class Mailbox {
   std::map<std::string, Slot, std::less<>> slots_;
   std::uint64_t order_ = 0;
   std::size_t waiting_ = 0;  ///< messages
+  bool woken_ = false;
 };
 
 }  // namespace floornav

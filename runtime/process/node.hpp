@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ class Node {
   /// The channels that it publishes. In replay the log's own messages on them are left out; live, another
   /// publisher on them is told in HEALTH.
   [[nodiscard]] virtual std::vector<std::string> outputs() const { return {}; }
+  /// Live: `wake` asks for a step at once, from any thread, where something other than a message has come (a
+  /// camera's frame). Empty: there is nobody to wake any more.
+  virtual void set_wake(std::function<void()> /*wake*/) {}
   /// Declares the inputs; their handlers only store.
   virtual void subscribe(Inbox& inbox) = 0;
   /// Does one piece of work, a few milliseconds at most. True: there is more to do. Called after messages and
