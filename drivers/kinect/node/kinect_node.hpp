@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/camera/device_clock.hpp"
+#include "drivers/camera/frame_content.hpp"
+#include "drivers/camera/frame_gaps.hpp"
+#include "drivers/kinect/node/frame_source.hpp"
+#include "drivers/kinect/settings.hpp"
+#include "floornav/depth_cloud_t.hpp"
+#include "runtime/process/latency.hpp"
+#include "runtime/process/node.hpp"
+
+namespace floornav {
+
+/// Frames of a Kinect in, KINECT_CLOUD out. A stuck image is not published: it would keep an old floor alive.
+/// An empty one is: it says that nothing is seen.
+class KinectNode final : public Node {
+ public:
+  /// `source` must outlive the node.
+  KinectNode(const KinectSettings& settings, FrameSource& source);
+
+  [[nodiscard]] std::string name() const override { return settings_.name; }
+  [[nodiscard]] std::vector<std::string> outputs() const override { return {settings_.channel}; }
+  void set_wake(std::function<void()> wake) override { source_.notify(std::move(wake)); }
+  void subscribe(Inbox&) override {}
+  bool step(Micros now, Budget& budget, Outbox& out) override;
+  void tick(Micros, Outbox&) override {}
+  void report(health_t& health) const override;
+
+ private:
+  void begin(std::shared_ptr<const DepthStream> stream);
+  void publish(Outbox& out);
+
+  KinectSettings settings_;
+  FrameSource& source_;
+  CapturedFrame frame_;
+  std::shared_ptr<const DepthStream> stream_;
+  DeviceClock clock_;
+  FrameGaps gaps_{0};
+  FrameContent content_;
+  FrameContent::Verdict verdict_ = FrameContent::Verdict::kGood;  ///< on the last frame
+  depth_cloud_t cloud_;
+  std::int64_t lost_ = 0;
+  std::int64_t withheld_ = 0;
+  Micros last_loss_{0};
+  Micros now_{0};
+  LatencyHistogram latency_;  ///< from a frame's arrival to its message
+};
+
+}  // namespace floornav

@@ -1,0 +1,263 @@
+#include "drivers/kinect/node/openni_device.hpp"
+
+#include <array>
+#include <filesystem>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "drivers/kinect/field_of_view.hpp"
+#include "drivers/kinect/node/calibration_file.hpp"
+#include "drivers/kinect/node/host_time.hpp"
+#include "drivers/kinect/node/usb_devices.hpp"
+
+namespace floornav {
+namespace {
+
+void check(openni::Status status, const std::string& what) {
+  if (status == openni::STATUS_OK) return;
+  std::string why = openni::OpenNI::getExtendedError();
+  for (char& c : why)
+    if (c == '\n' || c == '\t') c = ' ';
+  while (!why.empty() && why.back() == ' ') why.pop_back();
+  throw DeviceError(why.empty() ? fmt::format("{} failed (status {})", what, static_cast<int>(status))
+                                : fmt::format("{}: {}", what, why));
+}
+
+openni::PixelFormat format_of(int depth_unit_um) {
+  return depth_unit_um == 100 ? openni::PIXEL_FORMAT_DEPTH_100_UM : openni::PIXEL_FORMAT_DEPTH_1_MM;
+}
+
+std::string name_of(const openni::VideoMode& mode) {
+  return fmt::format("{}x{} at {} Hz, {}", mode.getResolutionX(), mode.getResolutionY(), mode.getFps(),
+                     mode.getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_100_UM ? "0.1 mm" : "1 mm");
+}
+
+bool is_depth(const openni::VideoMode& mode) {
+  return mode.getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_1_MM ||
+         mode.getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_100_UM;
+}
+
+}  // namespace
+
+/// Called on a driver's thread: only sets a flag.
+class OpenNiDevice::Disconnected final : public openni::OpenNI::DeviceDisconnectedListener {
+ public:
+  void watch(const std::string& uri) {
+    uri_ = uri;
+    gone_ = false;
+    check(openni::OpenNI::addDeviceDisconnectedListener(this), "listening for the device's removal");
+  }
+  void rest() { openni::OpenNI::removeDeviceDisconnectedListener(this); }
+  [[nodiscard]] bool gone() const { return gone_; }
+
+ private:
+  void onDeviceDisconnected(const openni::DeviceInfo* info) override {
+    if (uri_ == info->getUri()) gone_ = true;
+  }
+  std::string uri_;
+  std::atomic<bool> gone_ = false;
+};
+
+OpenNiDevice::OpenNiDevice(const KinectSettings& settings, Playback playback)
+    : settings_(settings), playback_(playback), disconnected_(std::make_unique<Disconnected>()) {
+  start_library();
+}
+
+OpenNiDevice::~OpenNiDevice() {
+  close();
+  stop_library();
+}
+
+void OpenNiDevice::start_library() {
+  openni::OpenNI::setLogConsoleOutput(false);
+  openni::OpenNI::setLogFileOutput(false);
+  const openni::Status status = openni::OpenNI::initialize();
+  if (status == openni::STATUS_OK) return;
+  stop_library();  // it counts failed starts too
+  check(status, "OpenNI2 does not start");
+}
+
+void OpenNiDevice::stop_library() {
+  openni::OpenNI::shutdown();
+}
+
+void OpenNiDevice::restart() {
+  close();
+  stop_library();
+  start_library();
+}
+
+bool OpenNiDevice::is_file() const {
+  std::error_code error;
+  return settings_.device.ends_with(".oni") || std::filesystem::is_regular_file(settings_.device, error);
+}
+
+std::vector<std::string> OpenNiDevice::uris() {
+  openni::Array<openni::DeviceInfo> infos;
+  openni::OpenNI::enumerateDevices(&infos);
+  std::vector<std::string> uris;
+  for (int i = 0; i < infos.getSize(); ++i) uris.emplace_back(infos[i].getUri());
+  return uris;
+}
+
+bool OpenNiDevice::listed() {
+  std::error_code error;
+  if (is_file()) return std::filesystem::exists(settings_.device, error);
+  return !uris().empty();
+}
+
+std::string OpenNiDevice::absence() {
+  if (is_file()) return settings_.device + ": no such file";
+  const std::string hint = usb_camera_hint(kUsbDevices);
+  return hint.empty() ? "no depth camera is plugged in" : hint;
+}
+
+DepthStream OpenNiDevice::open() {
+  try {
+    open_device();
+    check(depth_.create(device_, openni::SENSOR_DEPTH), "the device's depth stream cannot be opened");
+    if (!device_.isFile()) choose_mode();
+    set_registration();
+    depth_.setMirroringEnabled(false);  // a file refuses, and some devices: describe() sees what came of it
+    const DepthStream stream = describe();
+    if (device_.isFile()) play_file();
+    check(depth_.start(), "the depth stream does not start");
+    if (!device_.isFile()) disconnected_->watch(device_.getDeviceInfo().getUri());
+    return stream;
+  } catch (const DeviceError&) {
+    close();
+    throw;
+  } catch (const std::exception& e) {  // a driver's own exception may come through OpenNI2
+    close();
+    throw DeviceError(e.what());
+  }
+}
+
+void OpenNiDevice::open_device() {
+  const std::string& wanted = settings_.device;
+  if (is_file()) return check(device_.open(wanted.c_str()), wanted + ": not a recording that OpenNI2 reads");
+  const std::vector<std::string> found = uris();
+  for (const std::string& uri : found)
+    if (wanted.empty() || uri == wanted) return check(device_.open(uri.c_str()), uri + " cannot be opened");
+  for (const std::string& uri : found)
+    if (open_if_serial(uri)) return;
+  throw DeviceError(fmt::format("no device has the URI or serial number \"{}\"; there is {}", wanted,
+                                found.empty() ? "none" : fmt::format("{}", fmt::join(found, ", "))));
+}
+
+bool OpenNiDevice::open_if_serial(const std::string& uri) {
+  if (device_.open(uri.c_str()) != openni::STATUS_OK) return false;
+  std::array<char, 256> serial{};
+  int size = serial.size() - 1;
+  const openni::Status status =
+      device_.getProperty(openni::DEVICE_PROPERTY_SERIAL_NUMBER, serial.data(), &size);
+  if (status == openni::STATUS_OK && settings_.device == serial.data()) return true;
+  device_.close();
+  return false;
+}
+
+void OpenNiDevice::choose_mode() {
+  const openni::Array<openni::VideoMode>& modes = depth_.getSensorInfo().getSupportedVideoModes();
+  std::vector<std::string> offered;
+  for (int i = 0; i < modes.getSize(); ++i) {
+    const openni::VideoMode& mode = modes[i];
+    if (is_depth(mode)) offered.push_back(name_of(mode));
+    if (mode.getResolutionX() == settings_.width && mode.getResolutionY() == settings_.height &&
+        mode.getFps() == settings_.frames_per_second &&
+        mode.getPixelFormat() == format_of(settings_.depth_unit_um))
+      return check(depth_.setVideoMode(mode), name_of(mode) + " is refused");
+  }
+  throw DeviceError(fmt::format("the device has no depth of {}x{} at {} Hz in {} um; it offers {}",
+                                settings_.width, settings_.height, settings_.frames_per_second,
+                                settings_.depth_unit_um, fmt::join(offered, "; ")));
+}
+
+void OpenNiDevice::set_registration() {
+  const auto wanted =
+      settings_.registration ? openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR : openni::IMAGE_REGISTRATION_OFF;
+  if (device_.isFile() || device_.getImageRegistrationMode() == wanted) return;
+  if (!device_.isImageRegistrationModeSupported(wanted))
+    throw DeviceError(settings_.registration ? "the device cannot register depth to colour"
+                                             : "the device cannot switch registration off");
+  check(device_.setImageRegistrationMode(wanted), "registration");
+}
+
+DepthStream OpenNiDevice::describe() {
+  const openni::VideoMode mode = depth_.getVideoMode();
+  if (!is_depth(mode)) throw DeviceError("the depth stream is not in millimetres");
+  DepthStream stream;
+  stream.device = fmt::format("{} ({}), {}", device_.getDeviceInfo().getName(),
+                              device_.getDeviceInfo().getUri(), name_of(mode));
+  stream.shape.width = mode.getResolutionX();
+  stream.shape.height = mode.getResolutionY();
+  stream.shape.mirrored = depth_.getMirroringEnabled();
+  const int most = depth_.getMaxPixelValue();
+  stream.shape.max_count = static_cast<std::uint16_t>(most > 0 && most < 65536 ? most : 65535);
+  const Calibration calibration = calibration_of(mode);
+  stream.camera = calibration.camera;
+  stream.distortion = calibration.distortion;
+  stream.count_m = mode.getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_100_UM ? 1e-4F : 1e-3F;
+  stream.period_us = 1'000'000 / std::max(1, mode.getFps());
+  stream.counts_by_clock = !device_.isFile();
+  return stream;
+}
+
+Calibration OpenNiDevice::calibration_of(const openni::VideoMode& mode) {
+  const int width = mode.getResolutionX();
+  const int height = mode.getResolutionY();
+  if (!settings_.calibration.empty()) return read_calibration(settings_.calibration, width, height);
+  const auto seen_by = [&](const openni::VideoStream& stream) {
+    return Calibration{pinhole_of_field_of_view(static_cast<double>(stream.getHorizontalFieldOfView()),
+                                                static_cast<double>(stream.getVerticalFieldOfView()), width,
+                                                height)};
+  };
+  if (!settings_.registration || device_.isFile()) return seen_by(depth_);
+  openni::VideoStream color;  // registered depth is what the colour camera would see
+  check(color.create(device_, openni::SENSOR_COLOR), "registration needs the colour camera's field of view");
+  return seen_by(color);
+}
+
+void OpenNiDevice::play_file() {
+  openni::PlaybackControl& control = *device_.getPlaybackControl();
+  const bool by_hand = playback_ == Playback::kByHand;
+  frames_left_ = control.getNumberOfFrames(depth_);
+  check(control.setRepeatEnabled(!by_hand), "playback");
+  check(control.setSpeed(by_hand ? -1.0F : 1.0F), "playback");
+}
+
+DepthDevice::Event OpenNiDevice::wait(std::chrono::milliseconds timeout) {
+  if (disconnected_->gone()) return Event::kGone;
+  const bool by_hand = device_.isFile() && playback_ == Playback::kByHand;
+  if (by_hand && frames_left_-- <= 0) return Event::kGone;  // it would wait for ever
+  if (!by_hand) {
+    openni::VideoStream* streams[] = {&depth_};
+    int ready = 0;
+    const openni::Status status =
+        openni::OpenNI::waitForAnyStream(streams, 1, &ready, static_cast<int>(timeout.count()));
+    if (status != openni::STATUS_OK) return disconnected_->gone() ? Event::kGone : Event::kNothing;
+  }
+  arrival_ = host_time();
+  return depth_.readFrame(&frame_) == openni::STATUS_OK && frame_.isValid() ? Event::kFrame : Event::kNothing;
+}
+
+DeviceFrame OpenNiDevice::frame() {
+  DeviceFrame frame;
+  frame.bytes = static_cast<const std::uint8_t*>(frame_.getData());
+  frame.size = static_cast<std::size_t>(std::max(0, frame_.getDataSize()));
+  frame.width = frame_.getWidth();
+  frame.height = frame_.getHeight();
+  frame.stride = frame_.getStrideInBytes();
+  frame.number = frame_.getFrameIndex();
+  frame.stamp = frame_.getTimestamp();
+  return frame;
+}
+
+void OpenNiDevice::close() {
+  disconnected_->rest();
+  frame_.release();
+  depth_.destroy();
+  device_.close();
+}
+
+}  // namespace floornav
