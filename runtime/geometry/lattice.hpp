@@ -17,7 +17,6 @@ struct CellIndex {
 struct Lattice {
   double pitch_m = 0.05;
 
-  /// The nearest index that there is where the coordinate lies beyond all of them; the lowest one for NaN.
   [[nodiscard]] std::int32_t index_of(double coordinate_m) const;
   [[nodiscard]] CellIndex cell_of(double x_m, double y_m) const { return {index_of(x_m), index_of(y_m)}; }
   [[nodiscard]] double center_of(std::int32_t index) const { return (index + 0.5) * pitch_m; }

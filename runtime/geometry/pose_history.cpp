@@ -7,9 +7,7 @@ namespace floornav {
 bool PoseHistory::insert(std::int64_t utime_us, const Pose& T_world_body) {
   if (!poses_.empty() && utime_us <= poses_.back().utime_us) return false;
   poses_.push_back({utime_us, T_world_body});
-  std::int64_t oldest_us = 0;
-  if (__builtin_sub_overflow(utime_us, span_us_, &oldest_us)) return true;  // nothing can be that old
-  while (poses_.front().utime_us < oldest_us) poses_.pop_front();
+  while (poses_.front().utime_us < utime_us - span_us_) poses_.pop_front();
   return true;
 }
 

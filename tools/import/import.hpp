@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "runtime/geometry/pinhole.hpp"
-#include "tools/import/sensor_model.hpp"
+#include "tools/import/imported_sensor.hpp"
 
 namespace floornav {
 
@@ -19,7 +19,7 @@ using ImportStep = std::function<void(std::int64_t done, std::int64_t total)>;
 /// What every import needs.
 struct ImportTarget {
   std::filesystem::path log;
-  SensorModel sensor;
+  ImportedSensor sensor;
   ImportStep before_each;
 };
 

@@ -1,4 +1,4 @@
-#include <csignal>
+#include <atomic>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -7,14 +7,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "runtime/process/stop_signals.hpp"
 #include "tools/import/import.hpp"
 #include "tools/progress/progress.hpp"
 
 namespace {
 
 using namespace floornav;
-
-volatile std::sig_atomic_t stop_asked = 0;
 
 /// The options that every sub-command has.
 struct CommonOptions {
@@ -64,8 +63,10 @@ void add_depth_scale(CLI::App& command, double& counts_per_m) {
 
 ImportReport run(const CommonOptions& options,
                  const std::function<ImportReport(const ImportTarget&)>& import) {
+  const std::atomic<bool>& stop_asked = stop_on_signals();
   Progress progress("frames");
-  const ImportTarget target{options.log, sensor_model(options.sensor), [&](std::int64_t done, std::int64_t total) {
+  const ImportTarget target{options.log, imported_sensor(options.sensor),
+                            [&](std::int64_t done, std::int64_t total) {
                               if (stop_asked) throw std::runtime_error("interrupted, nothing written");
                               progress.at(done, total);
                             }};
@@ -161,7 +162,6 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { stop_asked = 1; });
   try {
     return run_program(argc, argv);
   } catch (const std::exception& error) {

@@ -30,7 +30,7 @@ std::filesystem::path with_suffix(std::filesystem::path file, const char* suffix
 
 }  // namespace
 
-Recording::Recording(std::filesystem::path file, const SensorModel& sensor)
+Recording::Recording(std::filesystem::path file, const ImportedSensor& sensor)
     : file_(std::move(file)), unfinished_(with_suffix(file_, ".part")), sensor_(sensor), log_(unfinished_) {}
 
 Recording::~Recording() {

@@ -8,7 +8,7 @@
 #include "runtime/geometry/pose.hpp"
 #include "runtime/process/log_writer.hpp"
 #include "tools/import/depth_image.hpp"
-#include "tools/import/sensor_model.hpp"
+#include "tools/import/imported_sensor.hpp"
 
 namespace floornav {
 
@@ -17,7 +17,7 @@ namespace floornav {
 class Recording {
  public:
   /// Throws LogError where the file cannot be made.
-  Recording(std::filesystem::path file, const SensorModel& sensor);
+  Recording(std::filesystem::path file, const ImportedSensor& sensor);
   ~Recording();
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
@@ -38,7 +38,7 @@ class Recording {
 
   std::filesystem::path file_;
   std::filesystem::path unfinished_;
-  SensorModel sensor_;
+  ImportedSensor sensor_;
   LogWriter log_;
   std::int64_t session_ = 0;  ///< the first cloud's utime: a recording imported twice gives the same bytes
   std::int64_t clouds_ = 0;

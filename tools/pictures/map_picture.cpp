@@ -3,35 +3,19 @@
 #include <array>
 #include <cmath>
 
-#include "tools/pictures/plan.hpp"
+#include "tools/pictures/cell_color.hpp"
+#include "tools/pictures/top_view.hpp"
 
 namespace floornav {
 
 namespace {
 
 constexpr Color kInk = color(0x26292E);
-constexpr Color kUnknown = color(0xD3D7DD);
-constexpr Color kFreeDoubtful = color(0xB9C98A);
-constexpr Color kFreeSure = color(0xF4F9EC);
-constexpr Color kObstacle = color(0x23262F);
-constexpr Color kUnreachable = color(0xC4572E);
 constexpr Color kPath = color(0x1668D8);
-constexpr Color kTrajectory = color(0x8A3FBF);
+constexpr Color kTrajectory = kRobotColor;
 constexpr Color kGoal = color(0xD81E5B);
 constexpr Color kWhite = color(0xFFFFFF);
 constexpr double kTrajectoryGap_m = 2.0;  // frames of their own maps lie farther apart
-
-Color cell_color(VertexState state, double belief) {
-  switch (state) {
-    case VertexState::kFree:
-      return mix(kFreeDoubtful, kFreeSure, belief);
-    case VertexState::kBlocked:
-      return mix(kObstacle, kUnreachable, belief);
-    case VertexState::kUnknown:
-      break;
-  }
-  return kUnknown;
-}
 
 Eigen::AlignedBox2d shown_part(const MapPicture& picture) {
   const CellRectangle& cells = picture.map.cells;
@@ -49,31 +33,11 @@ Eigen::AlignedBox2d shown_part(const MapPicture& picture) {
   return {box.min().array() - margin_m, box.max().array() + margin_m};
 }
 
-void paint_cells(Plan& plan, const MapRaster& map) {
-  plan.canvas().rectangle(plan.plot_corner(), plan.plot_size(), kUnknown);
-  std::vector<std::uint32_t> colors(map.cells.size());
-  for (std::size_t i = 0; i < colors.size(); ++i)
-    colors[i] = packed(cell_color(map.state[i], map.belief[i] / 255.0));
-  plan.paint(map.cells, colors);
-}
-
-void draw_path(Plan& plan, const std::vector<Eigen::Vector2d>& path) {
+void draw_path(TopView& view, const std::vector<Eigen::Vector2d>& path) {
   if (path.size() < 2) return;
   const double no_gap = std::numeric_limits<double>::infinity();
-  plan.line(path, {kWhite, 7, 0.9}, no_gap);
-  plan.line(path, {kPath, 3.5}, no_gap);
-}
-
-void draw_robot(Plan& plan, const RobotMark& robot) {
-  const auto corner = [&](double angle, double reach) {
-    const double direction = robot.heading_rad + angle;
-    return plan.at(robot.place_m +
-                   reach * robot.radius_m * Eigen::Vector2d(std::cos(direction), std::sin(direction)));
-  };
-  plan.canvas().disc(plan.at(robot.place_m), robot.radius_m * plan.pixels_per_m(), kTrajectory, 0.25);
-  plan.canvas().circle(plan.at(robot.place_m), robot.radius_m * plan.pixels_per_m(), {kTrajectory, 1.5});
-  plan.canvas().polygon(std::array{corner(0, 0.85), corner(2.5, 0.6), corner(0, -0.25), corner(-2.5, 0.6)},
-                        kTrajectory);
+  view.line(path, {kWhite, 7, 0.9}, no_gap);
+  view.line(path, {kPath, 3.5}, no_gap);
 }
 
 void draw_goal(Canvas& canvas, const Eigen::Vector2d& at) {
@@ -85,7 +49,7 @@ void draw_goal(Canvas& canvas, const Eigen::Vector2d& at) {
 /// The key at the right: a mark and its words, one below the other.
 class Key {
  public:
-  explicit Key(Plan& plan) : canvas_(plan.canvas()), at_(plan.key_corner()) {}
+  explicit Key(TopView& view) : canvas_(view.canvas()), at_(view.key_corner()) {}
 
   void swatch(Color left, Color right, const std::string& words) {
     constexpr int kSteps = 17;
@@ -116,12 +80,13 @@ class Key {
 constexpr Stroke kTrajectoryStroke{kTrajectory, 1.8, 0.9};
 constexpr Stroke kAssumedStroke{kInk, 1.5, 0.8, 5};
 
-void draw_key(Plan& plan, const MapPicture& picture) {
-  Key key(plan);
-  key.swatch(kFreeDoubtful, kFreeSure, "free, belief 0 to 1");
-  key.swatch(kObstacle, kObstacle, "blocked, obstacle");
-  key.swatch(mix(kObstacle, kUnreachable, 0.5), kUnreachable, "blocked, out of reach");
-  key.swatch(kUnknown, kUnknown, "unknown");
+void draw_key(TopView& view, const MapPicture& picture) {
+  Key key(view);
+  key.swatch(cell_color(VertexState::kFree, 0), cell_color(VertexState::kFree, 1), "free, belief 0 to 1");
+  key.swatch(cell_color(VertexState::kBlocked, 0), cell_color(VertexState::kBlocked, 0), "blocked, obstacle");
+  key.swatch(cell_color(VertexState::kBlocked, 0.5), cell_color(VertexState::kBlocked, 1),
+             "blocked, out of reach");
+  key.swatch(cell_color(VertexState::kUnknown, 0), cell_color(VertexState::kUnknown, 0), "unknown");
   if (!picture.trajectory.empty()) key.line(kTrajectoryStroke, "robot's way");
   if (picture.path.size() > 1) key.line({kPath, 3.5}, "path");
   if (picture.goal) key.goal("goal");
@@ -131,22 +96,22 @@ void draw_key(Plan& plan, const MapPicture& picture) {
 }  // namespace
 
 void write_map_png(const MapPicture& picture, const std::filesystem::path& file) {
-  Plan plan({.shown_m = shown_part(picture),
-             .resolution_m = picture.map.cells.resolution_m,
-             .longest_px = picture.longest_px,
-             .title = picture.title,
-             .subtitle = picture.subtitle});
-  paint_cells(plan, picture.map);
-  plan.frame();
-  plan.line(picture.trajectory, kTrajectoryStroke, kTrajectoryGap_m);
+  TopView view({.shown_m = shown_part(picture),
+                .resolution_m = picture.map.cells.resolution_m,
+                .longest_px = picture.longest_px,
+                .title = picture.title,
+                .subtitle = picture.subtitle});
+  paint_cells(view, picture.map);
+  view.frame();
+  view.line(picture.trajectory, kTrajectoryStroke, kTrajectoryGap_m);
   if (picture.assumed_floor)
-    plan.canvas().circle(plan.at(picture.assumed_floor->center_m),
-                         picture.assumed_floor->radius_m * plan.pixels_per_m(), kAssumedStroke);
-  draw_path(plan, picture.path);
-  if (picture.robot) draw_robot(plan, *picture.robot);
-  if (picture.goal) draw_goal(plan.canvas(), plan.at(*picture.goal));
-  draw_key(plan, picture);
-  plan.canvas().write_png(file);
+    view.canvas().circle(view.at(picture.assumed_floor->center_m),
+                         picture.assumed_floor->radius_m * view.pixels_per_m(), kAssumedStroke);
+  draw_path(view, picture.path);
+  if (picture.robot) draw_robot(view, *picture.robot);
+  if (picture.goal) draw_goal(view.canvas(), view.at(*picture.goal));
+  draw_key(view, picture);
+  view.canvas().write_png(file);
 }
 
 }  // namespace floornav

@@ -8,18 +8,12 @@
 #include <Eigen/Core>
 
 #include "tools/pictures/raster.hpp"
+#include "tools/pictures/robot_mark.hpp"
 
 namespace floornav {
 
-/// A robot seen from above.
-struct RobotMark {
-  Eigen::Vector2d place_m;
-  double heading_rad = 0;
-  double radius_m = 0.45;
-};
-
 /// A disc of floor that the planner took for granted.
-struct AssumedFloor {
+struct AssumedDisc {
   Eigen::Vector2d center_m;
   double radius_m = 0;
 };
@@ -31,7 +25,7 @@ struct MapPicture {
   std::vector<Eigen::Vector2d> path;
   std::optional<RobotMark> robot;
   std::optional<Eigen::Vector2d> goal;
-  std::optional<AssumedFloor> assumed_floor;
+  std::optional<AssumedDisc> assumed_floor;
   std::string title;
   std::string subtitle;
   double longest_px = 1000;

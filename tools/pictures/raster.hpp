@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mapping/grid_map.hpp"
+#include "mapping/terrain_map.hpp"
 #include "runtime/geometry/lattice.hpp"
 
 namespace floornav {
@@ -31,7 +32,7 @@ struct CellRectangle {
 };
 
 /// The smallest rectangle that holds all cells given to it; 1 x 1 at the origin where there was none.
-class Bounds {
+class CellBounds {
  public:
   void add(CellIndex cell);
   [[nodiscard]] CellRectangle rectangle(double resolution_m) const;
@@ -49,12 +50,16 @@ struct MapRaster {
   std::vector<std::uint8_t> belief;  ///< 0..255 for 0..1
   std::vector<float> height_m;       ///< NaN where unknown
 };
+/// All that was seen.
 MapRaster rasterize(const GridMap& map);
+/// A part of the map.
+MapRaster rasterize(const GridMap& map, const CellRectangle& cells);
 
 /// Heights on their own lattice.
 struct HeightRaster {
   CellRectangle cells;
   std::vector<float> height_m;  ///< NaN where unknown
 };
+HeightRaster rasterize(const TerrainMap& map);
 
 }  // namespace floornav

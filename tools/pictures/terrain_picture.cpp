@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/pictures/plan.hpp"
+#include "tools/pictures/top_view.hpp"
 
 namespace floornav {
 
@@ -52,8 +52,8 @@ double light_on(const HeightRaster& terrain, int column, int row) {
   return std::isfinite(towards_light) ? 1 + 0.35 * std::tanh(kRelief * towards_light) : 1.0;
 }
 
-void paint_terrain(Plan& plan, const HeightRaster& terrain, const HeightRange& range) {
-  plan.canvas().rectangle(plan.plot_corner(), plan.plot_size(), kUnknown);
+void paint_terrain(TopView& view, const HeightRaster& terrain, const HeightRange& range) {
+  view.canvas().rectangle(view.plot_corner(), view.plot_size(), kUnknown);
   std::vector<std::uint32_t> colors(terrain.cells.size(), packed(kUnknown));
   std::size_t i = 0;
   for (int row = 0; row < terrain.cells.height; ++row)
@@ -61,15 +61,15 @@ void paint_terrain(Plan& plan, const HeightRaster& terrain, const HeightRange& r
       if (std::isfinite(terrain.height_m[i]))
         colors[i] = packed(
             shade(perceptual_color(range.fraction(terrain.height_m[i])), light_on(terrain, column, row)));
-  plan.paint(terrain.cells, colors);
+  view.paint(terrain.cells, colors);
 }
 
-void draw_color_bar(Plan& plan, const HeightRange& range) {
+void draw_color_bar(TopView& view, const HeightRange& range) {
   constexpr double kWidth_px = 22;
-  const double height_px = std::clamp(plan.plot_size().y(), 240.0, 420.0) - 40;
-  const Eigen::Vector2d top = plan.key_corner() + Eigen::Vector2d(0, 26);
-  Canvas& canvas = plan.canvas();
-  canvas.text(plan.key_corner() + Eigen::Vector2d(0, 10), "height, m", 12.5, kInk);
+  const double height_px = std::clamp(view.plot_size().y(), 240.0, 420.0) - 40;
+  const Eigen::Vector2d top = view.key_corner() + Eigen::Vector2d(0, 26);
+  Canvas& canvas = view.canvas();
+  canvas.text(view.key_corner() + Eigen::Vector2d(0, 10), "height, m", 12.5, kInk);
   for (int px = 0; px < static_cast<int>(height_px); ++px)
     canvas.rectangle(top + Eigen::Vector2d(0, px), {kWidth_px, 1}, perceptual_color(1 - px / height_px));
   for (double z = range.low_m; z <= range.high_m + range.step_m / 2; z += range.step_m) {
@@ -95,19 +95,19 @@ Eigen::AlignedBox2d shown_part(const TerrainPicture& picture) {
 }  // namespace
 
 void write_terrain_png(const TerrainPicture& picture, const std::filesystem::path& file) {
-  Plan plan({.shown_m = shown_part(picture),
-             .resolution_m = picture.terrain.cells.resolution_m,
-             .longest_px = picture.longest_px,
-             .key_width_px = 140,
-             .title = picture.title,
-             .subtitle = picture.subtitle});
+  TopView view({.shown_m = shown_part(picture),
+                .resolution_m = picture.terrain.cells.resolution_m,
+                .longest_px = picture.longest_px,
+                .key_width_px = 140,
+                .title = picture.title,
+                .subtitle = picture.subtitle});
   const HeightRange range = range_of(picture.terrain.height_m);
-  paint_terrain(plan, picture.terrain, range);
-  plan.frame();
-  plan.line(picture.trajectory, {color(0xFFFFFF), 3, 0.6}, kTrajectoryGap_m);
-  plan.line(picture.trajectory, {kInk, 1.4, 0.9}, kTrajectoryGap_m);
-  draw_color_bar(plan, range);
-  plan.canvas().write_png(file);
+  paint_terrain(view, picture.terrain, range);
+  view.frame();
+  view.line(picture.trajectory, {color(0xFFFFFF), 3, 0.6}, kTrajectoryGap_m);
+  view.line(picture.trajectory, {kInk, 1.4, 0.9}, kTrajectoryGap_m);
+  draw_color_bar(view, range);
+  view.canvas().write_png(file);
 }
 
 }  // namespace floornav

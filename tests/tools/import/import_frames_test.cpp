@@ -14,7 +14,7 @@ namespace floornav {
 namespace {
 
 ImportTarget target(const std::filesystem::path& log) {
-  return {log, sensor_model("kinect"), [](auto, auto) {}};
+  return {log, imported_sensor("kinect"), [](auto, auto) {}};
 }
 
 const Pinhole kSmallCamera{8.0F, 8.0F, 3.5F, 2.5F, 8, 6};
@@ -48,7 +48,7 @@ TEST(DepthImport, SetsTheNoiseOfTheSensor) {
   cv::imwrite((folder / "0.png").string(), cv::Mat(6, 8, CV_16UC1, cv::Scalar(1000)));
   const auto sigma_at_3m = [&](const char* sensor) {
     import_depth({{folder.path()}, kSmallCamera, 1000, {}},
-                 {folder / "out.lcm", sensor_model(sensor), [](auto, auto) {}});
+                 {folder / "out.lcm", imported_sensor(sensor), [](auto, auto) {}});
     const depth_cloud_t cloud = recorded_clouds(folder / "out.lcm").front().message;
     return 9 * cloud.disparity_sigma / (cloud.fx * cloud.baseline);
   };

@@ -18,7 +18,7 @@ namespace {
 const Pinhole kSmallCamera{8.0F, 8.0F, 3.5F, 2.5F, 8, 6};
 
 ImportTarget target(const std::filesystem::path& log) {
-  return {log, sensor_model("kinect"), [](auto, auto) {}};
+  return {log, imported_sensor("kinect"), [](auto, auto) {}};
 }
 
 /// A TUM folder with images at 10 Hz from 1.0 s, all 8 x 6 px, and a camera that moves along x at 1 m/s, 20

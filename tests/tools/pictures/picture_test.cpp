@@ -6,8 +6,8 @@
 
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/pictures/map_picture.hpp"
-#include "tools/pictures/plan.hpp"
 #include "tools/pictures/terrain_picture.hpp"
+#include "tools/pictures/top_view.hpp"
 
 namespace floornav {
 namespace {
@@ -66,7 +66,7 @@ TEST(MapPicture, IsTheSameBytesEveryTime) {
   picture.trajectory = {{0.1, 0.1}, {0.5, 0.5}};
   picture.goal = Eigen::Vector2d(2.5, 1.5);
   picture.robot = RobotMark{{0.5, 0.5}, 0.3, 0.45};
-  picture.assumed_floor = AssumedFloor{{0.1, 0.1}, 0.7};
+  picture.assumed_floor = AssumedDisc{{0.1, 0.1}, 0.7};
   write_map_png(picture, folder / "a.png");
   write_map_png(picture, folder / "b.png");
   EXPECT_EQ(file_content(folder / "a.png"), file_content(folder / "b.png"));

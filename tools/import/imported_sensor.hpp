@@ -8,7 +8,7 @@
 namespace floornav {
 
 /// Which of the two sensors a recording stands for, with its baseline and its noise by eq. (3) or (4).
-struct SensorModel {
+struct ImportedSensor {
   std::int8_t kind = 0;           ///< depth_cloud_t.sensor
   const char* channel = nullptr;  ///< where its clouds go
   double baseline_m = 0;
@@ -19,7 +19,7 @@ struct SensorModel {
 };
 
 /// "kinect" or "bumblebee". Throws std::invalid_argument for another name.
-SensorModel sensor_model(const std::string& name);
+ImportedSensor imported_sensor(const std::string& name);
 
 /// From "fx,fy,cx,cy" in px. Throws std::runtime_error that says what is wrong.
 Pinhole parse_intrinsics(const std::string& text);

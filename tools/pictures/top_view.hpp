@@ -12,20 +12,21 @@
 
 namespace floornav {
 
-/// What a plan shows and how large.
-struct PlanLayout {
+/// What a view from above shows and how large.
+struct TopViewLayout {
   Eigen::AlignedBox2d shown_m;  ///< part of the local frame
   double resolution_m = 0.05;   ///< of the cells, so that each becomes a whole number of pixels where it can
   double longest_px = 1000;     ///< longer side of the plot
   double key_width_px = 230;    ///< room at the right
+  double left_room_px = 0;      ///< more room at the left
   std::string title;
   std::string subtitle;
 };
 
-/// A plan of the floor seen from above, x to the right and y up, with a frame in metres around it.
-class Plan {
+/// The floor seen from above, x to the right and y up, with a frame in metres around it.
+class TopView {
  public:
-  explicit Plan(const PlanLayout& layout);
+  explicit TopView(const TopViewLayout& layout);
 
   /// Pixel of a place in the local frame.
   [[nodiscard]] Eigen::Vector2d at(double x_m, double y_m) const;

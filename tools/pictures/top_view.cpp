@@ -1,4 +1,4 @@
-#include "tools/pictures/plan.hpp"
+#include "tools/pictures/top_view.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,6 +11,7 @@ namespace floornav {
 namespace {
 
 constexpr double kLeft_px = 66;
+constexpr double kTitleLeft_px = 20;
 constexpr double kTop_px = 64;
 constexpr double kBottom_px = 58;
 constexpr double kMost_px_per_m = 160;
@@ -18,7 +19,7 @@ constexpr double kLeastHeight_px = 300;  // room for the key
 constexpr Color kInk = color(0x26292E);
 constexpr Color kFaint = color(0x70757D);
 
-double pixels_per_m(const PlanLayout& layout) {
+double pixels_per_m(const TopViewLayout& layout) {
   const double longest_m = layout.shown_m.sizes().maxCoeff();
   const double wanted = std::min(layout.longest_px / longest_m, kMost_px_per_m);
   const double cell_px = std::floor(wanted * layout.resolution_m);
@@ -43,24 +44,25 @@ std::string label(double value, double step) {
   return fmt::format("{:.{}f}", std::abs(value) < step / 2 ? 0.0 : value, decimals);
 }
 
-Plan::Plan(const PlanLayout& layout)
+TopView::TopView(const TopViewLayout& layout)
     : shown_m_(layout.shown_m),
       pixels_per_m_(floornav::pixels_per_m(layout)),
-      corner_(kLeft_px, kTop_px),
+      corner_(layout.left_room_px + kLeft_px, kTop_px),
       size_(whole(pixels_per_m_ * layout.shown_m.sizes())),
-      canvas_(static_cast<int>(kLeft_px + size_.x() + layout.key_width_px),
+      canvas_(static_cast<int>(corner_.x() + size_.x() + layout.key_width_px),
               static_cast<int>(kTop_px + std::max(size_.y(), kLeastHeight_px) + kBottom_px),
               color(0xFFFFFF)) {
-  canvas_.text({kLeft_px, 28}, layout.title, 17, kInk, Align::kLeft, true);
-  canvas_.text({kLeft_px, 49}, layout.subtitle, 13, kFaint);
+  const double left = layout.left_room_px > 0 ? kTitleLeft_px : kLeft_px;
+  canvas_.text({left, 28}, layout.title, 17, kInk, Align::kLeft, true);
+  canvas_.text({left, 49}, layout.subtitle, 13, kFaint);
 }
 
-Eigen::Vector2d Plan::at(double x_m, double y_m) const {
+Eigen::Vector2d TopView::at(double x_m, double y_m) const {
   return {corner_.x() + (x_m - shown_m_.min().x()) * pixels_per_m_,
           corner_.y() + size_.y() - (y_m - shown_m_.min().y()) * pixels_per_m_};
 }
 
-void Plan::paint(const CellRectangle& cells, std::span<const std::uint32_t> colors) {
+void TopView::paint(const CellRectangle& cells, std::span<const std::uint32_t> colors) {
   std::vector<std::uint32_t> top_first(colors.size());
   const auto width = static_cast<std::size_t>(cells.width);
   for (std::size_t row = 0; row < static_cast<std::size_t>(cells.height); ++row)
@@ -72,7 +74,7 @@ void Plan::paint(const CellRectangle& cells, std::span<const std::uint32_t> colo
   canvas_.unclip();
 }
 
-void Plan::line(std::span<const Eigen::Vector2d> places_m, const Stroke& stroke, double gap_m) {
+void TopView::line(std::span<const Eigen::Vector2d> places_m, const Stroke& stroke, double gap_m) {
   canvas_.clip(corner_, size_);
   std::vector<Eigen::Vector2d> piece;
   for (std::size_t i = 0; i < places_m.size(); ++i) {
@@ -86,7 +88,7 @@ void Plan::line(std::span<const Eigen::Vector2d> places_m, const Stroke& stroke,
   canvas_.unclip();
 }
 
-void Plan::ticks_along_x(double step_m) {
+void TopView::ticks_along_x(double step_m) {
   const double bottom = corner_.y() + size_.y();
   for (double x = std::ceil(shown_m_.min().x() / step_m) * step_m; x <= shown_m_.max().x(); x += step_m) {
     const double px = std::round(at(x, 0).x()) + 0.5;
@@ -97,7 +99,7 @@ void Plan::ticks_along_x(double step_m) {
   canvas_.text({corner_.x() + size_.x() / 2, bottom + 42}, "x, m", 12, kFaint, Align::kCenter);
 }
 
-void Plan::ticks_along_y(double step_m) {
+void TopView::ticks_along_y(double step_m) {
   for (double y = std::ceil(shown_m_.min().y() / step_m) * step_m; y <= shown_m_.max().y(); y += step_m) {
     const double py = std::round(at(0, y).y()) + 0.5;
     canvas_.line(std::array{Eigen::Vector2d(corner_.x(), py), Eigen::Vector2d(corner_.x() + size_.x(), py)},
@@ -109,7 +111,7 @@ void Plan::ticks_along_y(double step_m) {
   canvas_.text({corner_.x() - 9, corner_.y() - 8}, "y, m", 12, kFaint, Align::kRight);
 }
 
-void Plan::scale_bar() {
+void TopView::scale_bar() {
   const double length_m = round_step(0.09 * shown_m_.sizes().x());
   const double length_px = length_m * pixels_per_m_;
   const Eigen::Vector2d left(corner_.x() + 16, corner_.y() + size_.y() - 14);
@@ -120,7 +122,7 @@ void Plan::scale_bar() {
                Align::kCenter);
 }
 
-void Plan::frame() {
+void TopView::frame() {
   constexpr double kLeastTick_px = 56;
   const double step_m = round_step(kLeastTick_px / pixels_per_m_);
   ticks_along_x(step_m);

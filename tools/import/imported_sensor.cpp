@@ -1,4 +1,4 @@
-#include "tools/import/sensor_model.hpp"
+#include "tools/import/imported_sensor.hpp"
 
 #include <array>
 #include <charconv>
@@ -13,7 +13,7 @@
 
 namespace floornav {
 
-SensorModel sensor_model(const std::string& name) {
+ImportedSensor imported_sensor(const std::string& name) {
   // eq. (3): 1.4 cm at 3 m; eq. (4), wide baseline of the XB3: 0.35 cm at 3 m
   if (name == "kinect") return {depth_cloud_t::KINECT, channel::kKinectCloud, 0.075, 0.014 / 9};
   if (name == "bumblebee") return {depth_cloud_t::BUMBLEBEE, channel::kBumblebeeCloud, 0.24, 0.0035 / 9};
