@@ -20,6 +20,35 @@ double distance_to_line(GridPoint p, GridPoint a, GridPoint b) {
   return std::hypot(a.x + t * dx - p.x, a.y + t * dy - p.y);
 }
 
+/// Which stretches of a path may be replaced by a straight line.
+class Joiner {
+ public:
+  Joiner(const PlanningGrid& grid, const std::vector<GridCell>& path)
+      : grid_(grid), path_(path), cost_(path.size(), 0.0), known_(path.size() + 1, 0) {
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      known_[i + 1] = known_[i] + (grid.known_free(path[i]) ? 1 : 0);
+      if (i > 0)
+        cost_[i] = cost_[i - 1] + line_cost(grid.search_grid(), centre(path[i - 1]), centre(path[i]));
+    }
+  }
+
+  [[nodiscard]] bool may_join(std::size_t from, std::size_t to) const {
+    constexpr double kRounding = 1.0 + 1e-3;
+    const GridPoint a = centre(path_[from]), b = centre(path_[to]);
+    const std::size_t known = known_[to + 1] - known_[from];
+    if (known != 0 && known != to - from + 1) return false;
+    return line_open(grid_.search_grid(), a, b) &&
+           line_cost(grid_.search_grid(), a, b) <= (cost_[to] - cost_[from]) * kRounding &&
+           (known == 0 || known_free_part(grid_, a, b) == 1.0);
+  }
+
+ private:
+  const PlanningGrid& grid_;
+  const std::vector<GridCell>& path_;
+  std::vector<double> cost_;        ///< from the path's start, step by step
+  std::vector<std::size_t> known_;  ///< cells of known free floor before each
+};
+
 }  // namespace
 
 Route moved(const Route& route, CellIndex origin) {
@@ -32,31 +61,24 @@ Route moved(const Route& route, CellIndex origin) {
 }
 
 std::vector<GridPoint> shorten(const PlanningGrid& grid, const std::vector<GridCell>& path) {
-  const SearchGrid& cells = grid.search_grid();
-  std::vector<double> cost(path.size(), 0.0);      // from the path's start, step by step
-  std::vector<std::size_t> known(path.size(), 0);  // cells of known free floor up to here
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    known[i] = (i > 0 ? known[i - 1] : 0) + (grid.known_free(path[i]) ? 1 : 0);
-    if (i > 0) cost[i] = cost[i - 1] + line_cost(cells, centre(path[i - 1]), centre(path[i]));
+  const Joiner joiner(grid, path);
+  std::vector<std::size_t> corners{0};  // places in the path
+  for (std::size_t to = 2; to < path.size(); ++to)
+    if (!joiner.may_join(corners.back(), to)) corners.push_back(to - 1);
+  if (path.size() > 1) corners.push_back(path.size() - 1);
+  // A line that failed on its way may yet reach further: leave out single corners as long as that is
+  // possible.
+  for (std::size_t i = 1; i + 1 < corners.size();) {
+    if (joiner.may_join(corners[i - 1], corners[i + 1])) {
+      corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(i));
+      i = std::max<std::size_t>(i - 1, 1);
+    } else {
+      ++i;
+    }
   }
-  const auto may_join = [&](std::size_t from, std::size_t to) {
-    constexpr double kRounding = 1.0 + 1e-3;
-    const GridPoint a = centre(path[from]), b = centre(path[to]);
-    const std::size_t known_cells = known[to] - known[from] + (grid.known_free(path[from]) ? 1 : 0);
-    if (known_cells != 0 && known_cells != to - from + 1) return false;
-    return line_open(cells, a, b) && line_cost(cells, a, b) <= (cost[to] - cost[from]) * kRounding &&
-           (known_cells == 0 || known_free_part(grid, a, b) == 1.0);
-  };
-
-  std::vector<GridPoint> corners{centre(path.front())};
-  std::size_t from = 0;
-  for (std::size_t to = 2; to < path.size(); ++to) {
-    if (may_join(from, to)) continue;
-    from = to - 1;
-    corners.push_back(centre(path[from]));
-  }
-  if (path.size() > 1) corners.push_back(centre(path.back()));
-  return corners;
+  std::vector<GridPoint> points;
+  for (const std::size_t place : corners) points.push_back(centre(path[place]));
+  return points;
 }
 
 bool route_open(const SearchGrid& grid, const std::vector<GridPoint>& corners) {

@@ -81,14 +81,14 @@ bool edge_open(const GridMap& map, CellIndex from, CellIndex to) {
   return !both_seen || (bit_of(from, to) && bit_of(to, from));
 }
 
-/// Looks at the path every tenth of a cell.
+/// Looks at the path every fifth of a cell.
 void expect_safe(const Problem& p, const Plan& plan, unsigned seed) {
   const Lattice& lattice = p.map.lattice();
   std::optional<CellIndex> last;
   for (std::size_t i = 1; i < plan.points.size(); ++i) {
     const PathPoint &a = plan.points[i - 1], &b = plan.points[i];
     const double length_m = std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
-    const int samples = std::max(1, static_cast<int>(std::ceil(length_m / (0.1 * lattice.pitch_m))));
+    const int samples = std::max(1, static_cast<int>(std::ceil(length_m / (0.2 * lattice.pitch_m))));
     for (int k = 0; k <= samples; ++k) {
       const double t = static_cast<double>(k) / samples;
       const double x = a.x_m + t * (b.x_m - a.x_m), y = a.y_m + t * (b.y_m - a.y_m);
