@@ -31,8 +31,8 @@ struct DriveOptions {
 
 constexpr int kBlockMatchingWindow_px = 9;
 
-SensorModel sensor_of(const DriveOptions& options) {
-  SensorModel model;
+SensorSpec sensor_of(const DriveOptions& options) {
+  SensorSpec model;
   if (options.sensor == "kinect")
     model = kinect(options.width > 0 ? options.width : 640);
   else if (options.sensor == "bumblebee")

@@ -34,7 +34,7 @@ double disparity_unit(const DisparityNoise& noise) {
 
 }  // namespace
 
-DepthSensor::DepthSensor(const SensorModel& model, std::uint64_t seed)
+DepthSensor::DepthSensor(const SensorSpec& model, std::uint64_t seed)
     : model_(model),
       seed_(seed),
       focal_baseline_(
@@ -55,7 +55,7 @@ double DepthSensor::unit() const {
 
 /// A fixed parabola over the image, as badly calibrated lenses leave it.
 void DepthSensor::distort() {
-  Random random(random_key({seed_, kDistortion}));
+  RandomStream random(random_key({seed_, kDistortion}));
   const double radial = random.uniform(0.4, 0.6) * (random.uniform() < 0.5 ? -1 : 1);
   const double tilt_x = random.uniform(-0.2, 0.2);
   const double tilt_y = random.uniform(-0.2, 0.2);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tools/simulator/noise_field.hpp"
-#include "tools/simulator/sensor_model.hpp"
+#include "tools/simulator/sensor_spec.hpp"
 #include "tools/simulator/shapes.hpp"
 
 namespace floornav {
@@ -15,9 +15,9 @@ namespace floornav {
 class DepthSensor {
  public:
   /// The same model, seed and frame give the same image on every machine.
-  DepthSensor(const SensorModel& model, std::uint64_t seed);
+  DepthSensor(const SensorSpec& model, std::uint64_t seed);
 
-  [[nodiscard]] const SensorModel& model() const { return model_; }
+  [[nodiscard]] const SensorSpec& model() const { return model_; }
   /// m or px of the given image (not of the full resolution) a count.
   [[nodiscard]] double unit() const;
 
@@ -34,7 +34,7 @@ class DepthSensor {
                    const std::uint8_t* hidden);
   void count_row(const float* disparity, std::uint16_t* out) const;
 
-  SensorModel model_;
+  SensorSpec model_;
   std::uint64_t seed_;
   float focal_baseline_;  ///< px m, of the full resolution
   NoiseField noise_;

@@ -6,7 +6,7 @@
 #include "runtime/process/log_writer.hpp"
 #include "tools/simulator/odometry.hpp"
 #include "tools/simulator/scene.hpp"
-#include "tools/simulator/sensor_model.hpp"
+#include "tools/simulator/sensor_spec.hpp"
 #include "tools/simulator/trajectory.hpp"
 
 namespace floornav {
@@ -15,7 +15,7 @@ namespace floornav {
 inline constexpr std::int64_t kDriveStart_us = 1'370'000'000'000'000;
 
 struct DriveSettings {
-  SensorModel sensor;
+  SensorSpec sensor;
   PoseNoise pose_noise;
   double pose_rate_hz = 50.0;
   double cloud_latency_s = 0.0;  ///< from exposure to arrival in the log

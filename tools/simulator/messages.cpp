@@ -8,7 +8,7 @@ namespace floornav {
 
 depth_cloud_t cloud_message(const DepthSensor& sensor, std::span<const std::uint16_t> pixels,
                             std::int64_t utime_us, std::int64_t frame) {
-  const SensorModel& model = sensor.model();
+  const SensorSpec& model = sensor.model();
   const bool is_kinect = model.kind == SensorKind::kKinect;
   depth_cloud_t cloud{};
   cloud.utime = utime_us;

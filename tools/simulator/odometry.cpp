@@ -16,7 +16,7 @@ Eigen::Matrix3d small_turn(const Eigen::Vector3d& angles) {
       .toRotationMatrix();
 }
 
-Eigen::Vector3d normal_vector(Random& random, double sigma) {
+Eigen::Vector3d normal_vector(RandomStream& random, double sigma) {
   const double x = random.normal();
   const double y = random.normal();
   return sigma * Eigen::Vector3d(x, y, random.normal());

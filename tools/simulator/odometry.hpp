@@ -25,7 +25,7 @@ class Odometry {
   void advance(const Pose& T_world_body);
 
   PoseNoise noise_;
-  Random random_;
+  RandomStream random_;
   bool started_ = false;
   Pose last_true_ = Pose::Identity();
   Pose drifted_ = Pose::Identity();

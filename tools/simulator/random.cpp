@@ -78,11 +78,11 @@ void fill_uniforms(std::uint64_t key, std::span<float> out) {
     out[i] = static_cast<float>(static_cast<std::int32_t>(random_bits(key, i) >> 40)) * 0x1p-24F;
 }
 
-double Random::uniform() {
+double RandomStream::uniform() {
   return static_cast<double>(random_bits(key_, next_++) >> 11) * 0x1p-53;
 }
 
-double Random::normal() {
+double RandomStream::normal() {
   const std::uint64_t bits = random_bits(key_, next_++);
   float first = 0;
   float second = 0;

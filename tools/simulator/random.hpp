@@ -19,9 +19,9 @@ void fill_normals(std::uint64_t key, std::span<float> out);
 void fill_uniforms(std::uint64_t key, std::span<float> out);
 
 /// One number after the other, for what is drawn once in a while.
-class Random {
+class RandomStream {
  public:
-  explicit Random(std::uint64_t key) : key_(key) {}
+  explicit RandomStream(std::uint64_t key) : key_(key) {}
   /// In [0, 1).
   double uniform();
   double uniform(double low, double high) { return low + (high - low) * uniform(); }

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tools/simulator/random.hpp"
-#include "tools/simulator/sensor_model.hpp"
+#include "tools/simulator/sensor_spec.hpp"
 
 namespace floornav {
 namespace {
@@ -32,7 +32,7 @@ Eigen::Vector3d ray_of(const Pinhole& camera, const Pose& T_world_sensor, int u,
 class RaycasterSeeds : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RaycasterSeeds, ATiltedPlanesDepthIsTheClosedFormToFloatAccuracy) {
-  Random random(random_key({GetParam(), 1}));
+  RandomStream random(random_key({GetParam(), 1}));
   const Pinhole camera = kinect().camera;
   Shapes shapes;
   shapes.ground.slope = {random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15)};
@@ -76,14 +76,14 @@ bool solid_at(const Shapes& shapes, const Eigen::Vector3d& p) {
   return false;
 }
 
-Footprint random_footprint(Random& random, double least_m, double most_m) {
+Footprint random_footprint(RandomStream& random, double least_m, double most_m) {
   const Eigen::Vector2d axis = Eigen::Vector2d(random.uniform(-1, 1), random.uniform(-1, 1)).normalized();
   return {{random.uniform(1.2, 5.0), random.uniform(-2, 2)},
           axis,
           {random.uniform(least_m, most_m), random.uniform(least_m, most_m)}};
 }
 
-Shapes random_shapes(Random& random) {
+Shapes random_shapes(RandomStream& random) {
   Shapes shapes;
   for (int i = 0; i < 3; ++i)
     shapes.blocks.push_back({random_footprint(random, 0.1, 0.4),
@@ -102,7 +102,7 @@ Shapes random_shapes(Random& random) {
 }
 
 TEST_P(RaycasterSeeds, EveryRayIsFreeUpToItsDepthAndEndsInASolid) {
-  Random random(random_key({GetParam(), 2}));
+  RandomStream random(random_key({GetParam(), 2}));
   const Pinhole camera = small_camera();
   const Shapes shapes = random_shapes(random);
   const Pose T = mounted(0, 0, random.uniform(0.5, 1.2), random.uniform(10, 35), random.uniform(-10, 10));
@@ -129,7 +129,7 @@ TEST_P(RaycasterSeeds, EveryRayIsFreeUpToItsDepthAndEndsInASolid) {
 }
 
 TEST_P(RaycasterSeeds, WhatStandsPartlyBehindTheCameraIsSeen) {
-  Random random(random_key({GetParam(), 3}));
+  RandomStream random(random_key({GetParam(), 3}));
   Shapes shapes;  // a platform that begins behind the camera, and a wall along the way
   shapes.blocks.push_back({{{0, 0}, {1, 0}, {3, 3}}, 0.0, 0.1, {0, 0}});
   shapes.blocks.push_back({{{0, 0.5}, {1, 0}, {4, 0.05}}, 0.0, 2.0, {0, 0}});

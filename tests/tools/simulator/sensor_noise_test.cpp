@@ -19,8 +19,8 @@ struct Case {
 };
 
 /// A corner of the sensor's image is enough to count errors in.
-SensorModel model_of(const Case& c) {
-  SensorModel model = c.kind == SensorKind::kKinect ? kinect(c.width) : bumblebee(c.native_width, c.width);
+SensorSpec model_of(const Case& c) {
+  SensorSpec model = c.kind == SensorKind::kKinect ? kinect(c.width) : bumblebee(c.native_width, c.width);
   model.noise.correlation_px = c.correlation_px;
   model.camera.width = std::min(model.camera.width, 256);
   model.camera.height = std::min(model.camera.height, 192);
@@ -31,12 +31,12 @@ SensorModel model_of(const Case& c) {
 double depth_of(const DepthSensor& sensor, std::uint16_t count) {
   if (count == 0) return 0;
   const double value = count * sensor.unit();
-  const SensorModel& m = sensor.model();
+  const SensorSpec& m = sensor.model();
   return m.kind == SensorKind::kKinect ? value : static_cast<double>(m.camera.fx) * m.baseline_m / value;
 }
 
 /// RMS error over walls at and around `distance_m`, so that the disparity takes every phase of its quantum.
-double rms_error_m(const SensorModel& model, double distance_m, std::uint64_t seed) {
+double rms_error_m(const SensorSpec& model, double distance_m, std::uint64_t seed) {
   DepthSensor sensor(model, seed);
   const auto pixels = static_cast<std::size_t>(model.camera.width * model.camera.height);
   const double native_fb = static_cast<double>(model.camera.fx) * model.decimation * model.baseline_m;
@@ -59,7 +59,7 @@ double rms_error_m(const SensorModel& model, double distance_m, std::uint64_t se
 class SensorNoise : public ::testing::TestWithParam<Case> {};
 
 TEST_P(SensorNoise, IsEquation3Or4WithinFivePercentFrom1To5m) {
-  const SensorModel model = model_of(GetParam());
+  const SensorSpec model = model_of(GetParam());
   // the paper's figures: Kinect 1.4 cm at 3 m, 4 cm at 5 m; Bumblebee at 1280 x 960 0.35 cm at 3 m; sigma
   // grows with Z^2
   const double at_3m = model.kind == SensorKind::kKinect ? 0.0142
@@ -74,14 +74,14 @@ TEST_P(SensorNoise, IsEquation3Or4WithinFivePercentFrom1To5m) {
 }
 
 TEST_P(SensorNoise, TheMessagesErrorModelIsTheSame) {
-  const SensorModel model = model_of(GetParam());
+  const SensorSpec model = model_of(GetParam());
   const double sigma = model.noise.sigma_px / model.decimation;
   const double claimed_m = 9.0 * sigma / (static_cast<double>(model.camera.fx) * model.baseline_m);
   EXPECT_NEAR(rms_error_m(model, 3.0, 7) / claimed_m, 1.0, 0.05);
 }
 
 TEST_P(SensorNoise, CorrelationIsWhatTheModeSays) {
-  const SensorModel model = model_of(GetParam());
+  const SensorSpec model = model_of(GetParam());
   DepthSensor sensor(model, 3);
   const auto pixels = static_cast<std::size_t>(model.camera.width * model.camera.height);
   const auto width = static_cast<std::size_t>(model.camera.width);
@@ -122,7 +122,7 @@ Shapes board_before_wall() {
   return shapes;
 }
 
-SensorModel level(SensorModel model) {
+SensorSpec level(SensorSpec model) {
   model.T_body_sensor = mounted(0, 0, 1.0, 0);
   model.noise.missing = 0;
   model.noise.flying = 0;
@@ -156,7 +156,7 @@ TEST(Sensor, TheOtherCamerasShadowLiesToTheRightForABumblebee) {
 }
 
 TEST(Sensor, FlyingPixelsAreOnEdgesAndBetweenTheSurfaces) {
-  SensorModel model = level(kinect());
+  SensorSpec model = level(kinect());
   model.noise.shadow = false;
   model.noise.flying = 1.0;
   DepthSensor sensor(model, 1);
@@ -170,7 +170,7 @@ TEST(Sensor, FlyingPixelsAreOnEdgesAndBetweenTheSurfaces) {
 }
 
 TEST(Sensor, MissingPixelsHaveTheirShareAndNothingIsOutOfRange) {
-  SensorModel model = kinect();
+  SensorSpec model = kinect();
   model.noise.missing = 0.05;
   DepthSensor sensor(model, 1);
   const auto image = sensor.measure(std::vector<float>(640 * 480, 3.0F), 0);
@@ -182,7 +182,7 @@ TEST(Sensor, MissingPixelsHaveTheirShareAndNothingIsOutOfRange) {
 }
 
 TEST(Sensor, TheSlowDistortionIsFixedSmoothAndOfItsAmplitude) {
-  SensorModel model = bumblebee(640, 640);
+  SensorSpec model = bumblebee(640, 640);
   model.noise = {
       .sigma_px = 0.0, .quantum_px = 0.0, .missing = 0, .flying = 0, .shadow = false, .distortion_px = 0.5};
   DepthSensor sensor(model, 9);

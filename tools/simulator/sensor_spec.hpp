@@ -24,7 +24,7 @@ struct DisparityNoise {
 };
 
 /// One sensor at one resolution, mounted on a robot.
-struct SensorModel {
+struct SensorSpec {
   SensorKind kind = SensorKind::kKinect;
   Pinhole camera;      ///< of the image that it gives
   int decimation = 1;  ///< own pixels of the sensor per pixel given, each way
@@ -43,11 +43,11 @@ Pose mounted(double x_m, double y_m, double height_m, double pitch_deg, double r
 
 /// A Kinect, 640 x 480 at 30 Hz, or every n-th pixel of it. sigma_z = 1.4 cm at 3 m and 3.9 cm at 5 m, eq.
 /// (3). `width` must divide 640. Throws std::invalid_argument otherwise.
-SensorModel kinect(int width = 640);
+SensorSpec kinect(int width = 640);
 
 /// A Bumblebee XB3 with its wide baseline, 1280 x 960 at 7.5 Hz (sigma_z = 0.35 cm at 3 m, eq. (4)) or 640 x
 /// 480 at 15 Hz, where the same error in pixels weighs twice, or every n-th pixel of either. `native_width`
 /// is 1280 or 640 and `width` must divide it.
-SensorModel bumblebee(int native_width = 1280, int width = 1280);
+SensorSpec bumblebee(int native_width = 1280, int width = 1280);
 
 }  // namespace floornav

@@ -1,4 +1,4 @@
-#include "tools/simulator/sensor_model.hpp"
+#include "tools/simulator/sensor_spec.hpp"
 
 #include <stdexcept>
 #include <string>
@@ -42,21 +42,21 @@ Pose mounted(double x_m, double y_m, double height_m, double pitch_deg, double r
   return pose;
 }
 
-SensorModel kinect(int width) {
+SensorSpec kinect(int width) {
   const Pinhole full{575.0F, 575.0F, 319.5F, 239.5F, 640, 480};
-  SensorModel model;
+  SensorSpec model;
   model.decimation = decimation_of(full, width);
   model.camera = decimated(full, model.decimation);
   model.T_body_sensor = mounted(0.0, 0.0, kDefaultHeight_m, kDefaultPitch_deg);
   return model;
 }
 
-SensorModel bumblebee(int native_width, int width) {
+SensorSpec bumblebee(int native_width, int width) {
   if (native_width != 1280 && native_width != 640)
     throw std::invalid_argument("a Bumblebee gives images 1280 or 640 px wide");
   const Pinhole wide{983.0F, 983.0F, 644.0F, 493.0F, 1280, 960};
   const Pinhole full = decimated(wide, 1280 / native_width);
-  SensorModel model;
+  SensorSpec model;
   model.kind = SensorKind::kBumblebee;
   model.decimation = decimation_of(full, width);
   model.camera = decimated(full, model.decimation);

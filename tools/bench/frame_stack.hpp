@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "mapping/node/grid_map_message.hpp"
+#include "mapping/node/mapper_node.hpp"
+#include "perception/node/perception_node.hpp"
+#include "runtime/process/replay_executor.hpp"
+#include "tools/simulator/depth_sensor.hpp"
+
+namespace floornav {
+
+/// Perception and mapper on the messages of a simulated sensor, exactly as on the wire, and the map as a
+/// subscriber of GRID_MAP holds it.
+class FrameStack {
+ public:
+  FrameStack(const PerceptionSettings& perception, const MappingSettings& mapping,
+             const RobotSettings& robot);
+
+  /// One more frame, its body pose told exactly.
+  void see(const DepthSensor& sensor, std::span<const std::uint16_t> pixels, const Pose& T_world_body);
+
+  [[nodiscard]] const GridMap& published() const { return receiver_.map(); }
+
+ private:
+  void deliver(const EncodedMessage& message, std::int64_t utime_us);
+
+  Serial serial_;
+  PerceptionNode perception_;
+  MapperNode mapper_;
+  GridMapReceiver receiver_;
+  ReplayExecutor executor_;
+  Outbox out_;
+  std::int64_t frames_ = 0;
+};
+
+}  // namespace floornav

@@ -1,0 +1,19 @@
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+
+#include "tools/bench/table1_command.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures the claims of floornav", "floornav-bench");
+  app.require_subcommand(1);
+  try {
+    floornav::add_table1_command(app);
+    CLI11_PARSE(app, argc, argv);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "floornav-bench: %s\n", e.what());
+    return 1;
+  }
+  return 0;
+}

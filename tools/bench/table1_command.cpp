@@ -1,0 +1,96 @@
+#include "tools/bench/table1_command.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tools/bench/table1.hpp"
+
+namespace floornav {
+namespace {
+
+const char* name_of(SensorKind sensor) {
+  return sensor == SensorKind::kKinect ? "kinect" : "bumblebee";
+}
+
+const char* noise_of(const Table1Row& row) {
+  return row.correlated ? "correlated" : "independent";
+}
+
+double floor_rms_cm(const Table1Row& row) {
+  return row.floor_vertices > 0 ? 100.0 * std::sqrt(row.floor_square_m2 / row.floor_vertices) : 0.0;
+}
+
+void print_text(const std::vector<Table1Row>& rows) {
+  fmt::print(
+      "Height error of obstacles in cm, one frame (mean, worst, missed of all); the paper's mean in "
+      "brackets\n");
+  fmt::print("{:<10}{:<13}{:<7}| {:<32}| {:<32}| {:<6}{:<8}| floor RMS\n", "sensor", "noise", "x, y", "< 3 m",
+             "3 .. 5.5 m", "flat", "sloped");
+  for (const Table1Row& row : rows) {
+    const PaperRow paper = paper_row(row.sensor, row.x_res, row.y_res);
+    const auto cell = [](const HeightErrors& e, double paper_cm) {
+      return fmt::format("{:5.2f} [{:4.2f}] worst {:5.1f}, {:2}/{:<3}", e.mean_cm(), paper_cm,
+                         100.0 * e.worst_m, e.missed, e.count);
+    };
+    fmt::print("{:<10}{:<13}{:2}, {:<3}| {:<32}| {:<32}| {:<6.2f}{:<8.2f}| {:.2f}\n", name_of(row.sensor),
+               noise_of(row), row.x_res, row.y_res, cell(row.near, paper.near_cm),
+               cell(row.far, paper.far_cm), row.flat.mean_cm(), row.sloped.mean_cm(), floor_rms_cm(row));
+  }
+}
+
+nlohmann::json json_of(const Table1Row& row) {
+  const PaperRow paper = paper_row(row.sensor, row.x_res, row.y_res);
+  const double all = row.near.count + row.far.count;
+  return {{"sensor", name_of(row.sensor)},
+          {"x_res", row.x_res},
+          {"y_res", row.y_res},
+          {"noise", noise_of(row)},
+          {"near_cm", row.near.mean_cm()},
+          {"far_cm", row.far.mean_cm()},
+          {"missed", (row.near.missed + row.far.missed) / all},
+          {"near_worst_cm", 100.0 * row.near.worst_m},
+          {"far_worst_cm", 100.0 * row.far.worst_m},
+          {"flat_cm", row.flat.mean_cm()},
+          {"sloped_cm", row.sloped.mean_cm()},
+          {"floor_rms_cm", floor_rms_cm(row)},
+          {"paper_near_cm", paper.near_cm},
+          {"paper_far_cm", paper.far_cm}};
+}
+
+struct Table1Options {
+  int configurations = 20;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+void run(const Table1Options& options) {
+  const auto rows = measure_table1(options.configurations, options.seed,
+                                   [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
+  if (!options.json) {
+    print_text(rows);
+    return;
+  }
+  nlohmann::json result{{"rows", nlohmann::json::array()}};
+  for (const Table1Row& row : rows) result["rows"].push_back(json_of(row));
+  fmt::print("{}\n", result.dump());
+}
+
+}  // namespace
+
+void add_table1_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "table1", "Heights of simulated obstacles against the truth, as the paper's Table 1");
+  const auto options = std::make_shared<Table1Options>();
+  command->add_option("--configurations", options->configurations, "Obstacle configurations a row")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of the configurations and the noise")->capture_default_str();
+  command->add_flag("--json", options->json, "For programs");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace floornav
