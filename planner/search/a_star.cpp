@@ -2,26 +2,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdlib>
 #include <stdexcept>
+
+#include "planner/search/octile.hpp"
 
 namespace floornav {
 namespace {
 
 constexpr std::uint32_t kMaxSearches = (1U << 28) - 1;
-
-std::uint32_t pack(std::int32_t x, std::int32_t y) {
-  return static_cast<std::uint32_t>(x) | static_cast<std::uint32_t>(y) << 16;
-}
-GridCell unpack(std::uint32_t item) {
-  return {static_cast<std::int32_t>(item & 0xFFFF), static_cast<std::int32_t>(item >> 16)};
-}
-
-std::uint32_t octile(std::int32_t dx, std::int32_t dy, StepCosts steps) {
-  const auto x = static_cast<std::uint32_t>(std::abs(dx));
-  const auto y = static_cast<std::uint32_t>(std::abs(dy));
-  return steps.straight * std::max(x, y) + (steps.diagonal - steps.straight) * std::min(x, y);
-}
 
 }  // namespace
 
@@ -58,14 +46,14 @@ SearchOutcome AStar::run(const SearchGrid& grid, GridCell start, GridCell goal, 
   const std::uint8_t* const weights = grid.weights.data();
   Node* const nodes = nodes_.data();
   const std::uint32_t number = number_;
-  const std::uint32_t goal_item = pack(goal.x, goal.y);
+  const std::uint32_t goal_item = pack(goal);
   // Beyond this a sum of costs could overflow: such cells are not expanded.
   const std::uint32_t max_cost = kUnreached - 32 * steps.diagonal - octile(grid.width, grid.height, steps);
   std::array<std::int32_t, 8> offsets;
   for (std::size_t k = 0; k < 8; ++k) offsets[k] = kStepY[k] * grid.width + kStepX[k];
 
   nodes[grid.index(start)] = {0, number & kMaxSearches, 0, 0};
-  queue_.push(octile(goal.x - start.x, goal.y - start.y, steps), pack(start.x, start.y));
+  queue_.push(octile(goal.x - start.x, goal.y - start.y, steps), pack(start));
   std::uint32_t item = 0;
   while (queue_.pop(item)) {
     const GridCell cell = unpack(item);
@@ -86,9 +74,8 @@ SearchOutcome AStar::run(const SearchGrid& grid, GridCell start, GridCell goal, 
       Node& neighbour = nodes[next];
       if (neighbour.search == number && neighbour.cost <= cost) continue;
       neighbour = {cost, number & kMaxSearches, 0, static_cast<std::uint32_t>(k) & 7U};
-      const std::int32_t x = cell.x + kStepX[k];
-      const std::int32_t y = cell.y + kStepY[k];
-      queue_.push(cost + octile(goal.x - x, goal.y - y, steps), pack(x, y));
+      const GridCell to{cell.x + kStepX[k], cell.y + kStepY[k]};
+      queue_.push(cost + octile(goal.x - to.x, goal.y - to.y, steps), pack(to));
     }
   }
   return SearchOutcome::kNoPath;
