@@ -26,7 +26,7 @@ struct SectionSettings {
 /// Statistical outlier removal (section 4.4).
 struct OutlierSettings {
   int neighbors = 8;     ///< K
-  double epsilon = 2.0;  ///< of eq. (6), in standard deviations
+  double epsilon = 3.0;  ///< of eq. (6), in standard deviations
 };
 
 /// Recursive RANSAC (sections 4.5 and 4.6.1).
