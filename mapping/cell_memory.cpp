@@ -66,35 +66,29 @@ void CellMemory::place_above(const Sighting& sighting, Seen& seen) {
 void CellMemory::place_below(const Sighting& sighting, Seen& seen) {
   if (!upper_.exists()) {
     upper_ = lower_;
-    seen.upper = seen.lower;
+    seen.upper = lower_.exists() && seen.lower;
   }
   lower_ = new_level(sighting);
   seen.lower = true;
 }
 
-void CellMemory::place(const Sighting& sighting, const FusionLimits& limits, Seen& seen) {
-  const bool fits_upper = fits(upper_, sighting, limits);
-  const bool fits_lower = fits(lower_, sighting, limits);
-  const bool nearer_upper = std::abs(upper_.z_m - sighting.z_m) < std::abs(lower_.z_m - sighting.z_m);
+Level* CellMemory::level_of(const Sighting& sighting, const FusionLimits& limits) {
   const auto part_of = [&sighting](const Level& level) {
     return level.exists() && level.column && sighting.column && sighting.z_m <= level.z_m;
   };
-  if (fits_upper && (!fits_lower || nearer_upper)) {
-    support(upper_, sighting, limits);
-    seen.upper = true;
-  } else if (fits_lower) {
-    support(lower_, sighting, limits);
-    seen.lower = true;
-  } else if (part_of(upper_)) {
-    support(upper_, sighting, limits);
-    seen.upper = true;
-  } else if (part_of(lower_) || (lower_.exists() && lower_.column && !upper_.exists() && sighting.column)) {
-    support(lower_, sighting, limits);
-    seen.lower = true;
-  } else if (!lower_.exists()) {
-    lower_ = new_level(sighting);
-    seen.lower = true;
-  } else if (sighting.z_m < lower_.z_m) {
+  const bool fits_upper = fits(upper_, sighting, limits);
+  const bool fits_lower = fits(lower_, sighting, limits);
+  const bool nearer_upper = std::abs(upper_.z_m - sighting.z_m) < std::abs(lower_.z_m - sighting.z_m);
+  if (fits_upper ? !fits_lower || nearer_upper : !fits_lower && part_of(upper_)) return &upper_;
+  const bool grows_lower = lower_.exists() && lower_.column && sighting.column && !upper_.exists();
+  return fits_lower || part_of(lower_) || grows_lower ? &lower_ : nullptr;
+}
+
+void CellMemory::place(const Sighting& sighting, const FusionLimits& limits, Seen& seen) {
+  if (Level* const level = level_of(sighting, limits)) {
+    support(*level, sighting, limits);
+    (level == &upper_ ? seen.upper : seen.lower) = true;
+  } else if (!lower_.exists() || sighting.z_m < lower_.z_m) {
     place_below(sighting, seen);
   } else {
     place_above(sighting, seen);

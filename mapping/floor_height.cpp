@@ -50,7 +50,8 @@ void FloorHeight::update(MapTile& tile) {
       }
       const CellIndex block{(tile.index.ix * MapTile::kSide + x) / side_,
                             (tile.index.iy * MapTile::kSide + y) / side_};
-      if (floor_m.size() * 16 < static_cast<std::size_t>(side_ * side_) || floor_m.empty()) {
+      if (floor_m.empty() ||
+          16.0 * static_cast<double>(floor_m.size()) < static_cast<double>(side_) * side_) {
         blocks_.erase(block);
         continue;
       }
@@ -89,7 +90,8 @@ void FloorHeight::heights_of(const MapTile& tile, float far_from_floor_m,
     for (std::int32_t x = 0; x <= blocks; ++x)
       around.push_back(block_height({first.ix + x, first.iy + y}).value_or(far_from_floor_m));
   const auto at = [&](std::int32_t x, std::int32_t y) {
-    return around[static_cast<std::size_t>(y * (blocks + 1) + x)];
+    const std::int32_t place = y * (blocks + 1) + x;
+    return around[static_cast<std::size_t>(place)];
   };
   heights_m.clear();
   for (std::int32_t i = 0; i < GridTile::kVertices; ++i) {

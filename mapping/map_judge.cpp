@@ -79,7 +79,7 @@ MapJudge::MapJudge(const MappingSettings& settings, const RobotSettings& robot)
       floor_(settings.resolution_m) {}
 
 void MapJudge::summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) const {
-  const auto per_vertex = static_cast<std::size_t>(cells_per_vertex * cells_per_vertex);
+  const std::size_t per_vertex = tile.cells.size() / tile.vertices.size();
   const float pitch_m = rule_.resolution_m / static_cast<float>(cells_per_vertex);
   std::vector<const CellMemory*> cells(per_vertex);
   for (std::size_t i = 0; i < tile.vertices.size(); ++i) {
@@ -170,9 +170,8 @@ std::vector<CellIndex> MapJudge::refresh(const std::vector<CellIndex>& dirty, co
   add_neighbours(work, version);
   for (MapTile* tile : work)
     if (publish_edges(*tile)) changed.push_back(tile->index);
-  std::ranges::sort(changed);
-  const auto repeated = std::ranges::unique(changed);
-  changed.erase(repeated.begin(), repeated.end());
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   for (const CellIndex index : changed) map.make(index).version = version;
   return changed;
 }

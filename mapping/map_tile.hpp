@@ -39,18 +39,21 @@ struct VertexRef {
   std::int32_t y = 0;
 
   [[nodiscard]] explicit operator bool() const { return tile != nullptr; }
-  [[nodiscard]] std::size_t index() const { return static_cast<std::size_t>(y * MapTile::kSide + x); }
+  [[nodiscard]] std::size_t index() const {
+    const std::int32_t place = y * MapTile::kSide + x;
+    return static_cast<std::size_t>(place);
+  }
   [[nodiscard]] Vertex& vertex() const { return tile->vertices[index()]; }
 
   /// The vertex `dx`, `dy` steps on, at most a tile's side; false where there is no tile.
   [[nodiscard]] VertexRef moved(std::int32_t dx, std::int32_t dy) const {
-    constexpr std::array<std::array<std::int32_t, 3>, 3> kTowards{{{5, 6, 7}, {4, -1, 0}, {3, 2, 1}}};
+    constexpr std::array<std::int32_t, 9> kTowards{5, 6, 7, 4, -1, 0, 3, 2, 1};
     const std::int32_t to_x = x + dx;
     const std::int32_t to_y = y + dy;
     const std::int32_t tile_x = block_of(to_x, MapTile::kSide);
     const std::int32_t tile_y = block_of(to_y, MapTile::kSide);
-    const std::int32_t towards =
-        kTowards[static_cast<std::size_t>(tile_y + 1)][static_cast<std::size_t>(tile_x + 1)];
+    const std::int32_t direction = 3 * (tile_y + 1) + tile_x + 1;
+    const std::int32_t towards = kTowards[static_cast<std::size_t>(direction)];
     MapTile* const to = towards < 0 ? tile : tile->neighbours[static_cast<std::size_t>(towards)];
     return {to, to_x - tile_x * MapTile::kSide, to_y - tile_y * MapTile::kSide};
   }

@@ -26,10 +26,10 @@ MapTile& MapTiles::make(CellIndex tile) {
 
 std::size_t MapTiles::slot_of(CellIndex cell) const {
   const CellIndex vertex = vertex_of(cell);
-  const std::int32_t within = (cell.iy - vertex.iy * cells_per_vertex_) * cells_per_vertex_ +
-                              (cell.ix - vertex.ix * cells_per_vertex_);
-  return GridMap::index_of(vertex) * static_cast<std::size_t>(cells_per_vertex_ * cells_per_vertex_) +
-         static_cast<std::size_t>(within);
+  const auto side = static_cast<std::size_t>(cells_per_vertex_);
+  const auto x = static_cast<std::size_t>(cell.ix - vertex.ix * cells_per_vertex_);
+  const auto y = static_cast<std::size_t>(cell.iy - vertex.iy * cells_per_vertex_);
+  return (GridMap::index_of(vertex) * side + y) * side + x;
 }
 
 const CellMemory* MapTiles::find_cell(CellIndex cell) const {

@@ -52,9 +52,8 @@ bool TerrainBuilder::summarise_tile(CellIndex index, const MapTiles& tiles, std:
 
 std::vector<CellIndex> TerrainBuilder::refresh(const MapTiles& tiles, std::int32_t cells_per_height,
                                                float max_step_m, TerrainMap& terrain) {
-  std::ranges::sort(touched_);
-  const auto repeated = std::ranges::unique(touched_);
-  touched_.erase(repeated.begin(), repeated.end());
+  std::sort(touched_.begin(), touched_.end());
+  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
   std::vector<CellIndex> changed;
   for (const CellIndex index : touched_) {
     if (!summarise_tile(index, tiles, cells_per_height, max_step_m, terrain)) continue;

@@ -25,8 +25,9 @@ class TileMap {
   /// The place of a cell in its tile's arrays.
   [[nodiscard]] static std::size_t index_of(CellIndex cell) {
     const CellIndex tile = tile_of(cell);
-    return static_cast<std::size_t>((cell.iy - tile.iy * Tile::kSide) * Tile::kSide +
-                                    (cell.ix - tile.ix * Tile::kSide));
+    const std::int32_t place =
+        (cell.iy - tile.iy * Tile::kSide) * Tile::kSide + (cell.ix - tile.ix * Tile::kSide);
+    return static_cast<std::size_t>(place);
   }
   /// Null where there is no tile.
   [[nodiscard]] const Tile* find(CellIndex tile) const {
