@@ -120,6 +120,7 @@ void PerceptionNode::process(const WaitingCloud& cloud, const Pose& T_world_body
     return;
   }
   trouble_.clear();
+  budget.begin(cloud.arrival);
   const FloorEvidence evidence = camera.perception.process(
       frame, T_world_body, parallel_, [&](std::int64_t work_ns) { return budget.spend(work_ns); });
   const depth_cloud_t& first = cloud.strips.front();
