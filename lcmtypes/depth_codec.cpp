@@ -85,13 +85,13 @@ class NibbleReader {
     const auto length = static_cast<std::uint32_t>(std::countr_zero(~pending_ & kChainBits)) + 1;
     if (length > kLongestChain) throw CorruptDepth("depth code has a number that is too long");
     if (length > bits_) throw CorruptDepth("depth code ends in the middle");
-    const auto chain = static_cast<std::uint32_t>(pending_ & ((std::uint64_t{1} << length) - 1));
+    const std::uint64_t chain = pending_ & ((std::uint64_t{1} << length) - 1);
     // One comparison for "of several nibbles, the last is 0": how long chains are is hard to predict.
-    if ((chain >> (length - 4)) < static_cast<std::uint32_t>(length > 4))
+    if ((chain << 4 >> length) < static_cast<std::uint64_t>(length > 4))
       throw CorruptDepth("depth code has a padded number");
     pending_ >>= length;
     bits_ -= length;
-    return gather(chain);
+    return gather(static_cast<std::uint32_t>(chain));
   }
 
   /// Throws unless all that is left is the zeros that fill the last word.
