@@ -19,20 +19,12 @@ class WireBytes {
   WireBytes& f32(float value) { return put(std::bit_cast<std::uint32_t>(value), 4); }
   WireBytes& f64(double value) { return put(std::bit_cast<std::uint64_t>(value), 8); }
   /// Length with terminator, characters, terminator.
-  WireBytes& text(std::string_view value) {
-    i32(static_cast<std::int32_t>(value.size() + 1));
-    bytes_.insert(bytes_.end(), value.begin(), value.end());
-    return i8(0);
-  }
+  WireBytes& text(std::string_view value);
 
   operator const std::vector<std::uint8_t>&() const { return bytes_; }
 
  private:
-  WireBytes& put(std::uint64_t value, int bytes) {
-    for (int byte = bytes - 1; byte >= 0; --byte)
-      bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * byte)));
-    return *this;
-  }
+  WireBytes& put(std::uint64_t value, int bytes);
 
   std::vector<std::uint8_t> bytes_;
 };
