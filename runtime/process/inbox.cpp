@@ -56,6 +56,10 @@ void Inbox::count_superseded(std::string_view channel, std::int64_t count) {
   place->second.known_gap += count;
 }
 
+void Inbox::forget_order() {
+  for (auto& [channel, entry] : entries_) entry.sequence = {};
+}
+
 std::vector<std::pair<std::string, Keep>> Inbox::channels() const {
   std::vector<std::pair<std::string, Keep>> all;
   for (const auto& [channel, entry] : entries_) all.emplace_back(channel, entry.keep);

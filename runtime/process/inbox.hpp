@@ -61,6 +61,9 @@ class Inbox {
   /// Tells that `count` messages of the channel were replaced by newer ones before delivery.
   void count_superseded(std::string_view channel, std::int64_t count);
 
+  /// Forgets which sessions and seqs have come; the counts stay.
+  void forget_order();
+
   [[nodiscard]] std::vector<std::pair<std::string, Keep>> channels() const;
   [[nodiscard]] std::map<std::string, ChannelCounts> counts() const;
 

@@ -30,4 +30,20 @@ double LatencyHistogram::percentile_ms(double share) const {
   return max_ms();
 }
 
+void RecentLatency::add(std::chrono::nanoseconds duration, Instant now) {
+  if (now - begin_ >= kWindow) {
+    previous_ = now - begin_ < 2 * kWindow ? current_ : LatencyHistogram();
+    current_ = {};
+    begin_ = now;
+  }
+  current_.add(duration);
+}
+
+LatencyHistogram RecentLatency::recent(Instant now) const {
+  LatencyHistogram all;
+  if (now - begin_ < 2 * kWindow) all.merge(current_);
+  if (now - begin_ < kWindow) all.merge(previous_);
+  return all;
+}
+
 }  // namespace floornav

@@ -28,4 +28,19 @@ class LatencyHistogram {
   std::chrono::nanoseconds max_{0};
 };
 
+/// The durations of the last 10 to 20 seconds.
+class RecentLatency {
+ public:
+  using Instant = std::chrono::steady_clock::time_point;
+  static constexpr std::chrono::seconds kWindow{10};
+
+  void add(std::chrono::nanoseconds duration, Instant now);
+  [[nodiscard]] LatencyHistogram recent(Instant now) const;
+
+ private:
+  LatencyHistogram current_;
+  LatencyHistogram previous_;
+  Instant begin_{};  ///< of current_
+};
+
 }  // namespace floornav

@@ -115,7 +115,9 @@ Micros LiveExecutor::node_time(Instant now) const {
 void LiveExecutor::hand_over(const Mail& mail) {
   last_mail_ = mail.arrived;
   if (options_.log_time) {
+    const std::int64_t jumps = log_clock_.jumps();
     if (const auto utime = peek_utime(mail.bytes)) log_clock_.advance(*utime, mail.channel);
+    if (log_clock_.jumps() != jumps) inbox_.forget_order();  // the log begins again, or another one does
     fire_ticks(mail.arrived);
   }
   if (run_began_ == Instant{}) run_began_ = mail.arrived;
@@ -164,8 +166,8 @@ void LiveExecutor::step() {
   resting_ = !more;
   if (more) return;
   if (published_) {
-    steps_.add(busy_);
-    responses_.add(end - run_began_);
+    steps_.add(busy_, end);
+    responses_.add(end - run_began_, end);
   }
   published_ = false;
   busy_ = {};
@@ -220,8 +222,8 @@ health_t LiveExecutor::health(Instant now) {
   health.config_hash = options_.config_hash;
   guard("report", [&] { node_.report(health); });
   add_rates(health, now);
-  add_latency(health, "step", steps_);
-  add_latency(health, "response", responses_);
+  add_latency(health, "step", steps_.recent(now));
+  add_latency(health, "response", responses_.recent(now));
   add_drops(health, inbox_.counts());
   for (const auto& [channel, count] : not_sent_) add_drop(health, channel + " not sent", count);
   add_drop(health, "bus errors", bus_errors_);

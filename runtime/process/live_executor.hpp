@@ -83,8 +83,8 @@ class LiveExecutor {
   bool published_ = false;  ///< since it rested
   Instant run_began_{};     ///< arrival of the message, or time of the tick, that ended the rest
   std::chrono::nanoseconds busy_{0};
-  LatencyHistogram steps_;      ///< work from rest to rest
-  LatencyHistogram responses_;  ///< from arrival to the end of the work on it
+  RecentLatency steps_;      ///< work from rest to rest
+  RecentLatency responses_;  ///< from arrival to the end of the work on it
 
   std::map<std::string, std::int64_t> sent_;
   std::map<std::string, std::int64_t> not_sent_;

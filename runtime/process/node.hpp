@@ -22,7 +22,7 @@ class Node {
   [[nodiscard]] virtual std::string name() const = 0;
   /// The channels that it publishes. In replay the log's own messages on them are left out; live, another
   /// publisher on them is told in HEALTH.
-  [[nodiscard]] virtual std::vector<std::string> outputs() const { return {}; }
+  [[nodiscard]] virtual std::vector<std::string> outputs() const = 0;
   /// Live: `wake` asks for a step at once, from any thread, where something other than a message has come (a
   /// camera's frame). Empty: there is nobody to wake any more.
   virtual void set_wake(std::function<void()> /*wake*/) {}
@@ -34,8 +34,7 @@ class Node {
   /// Called every tick_period(): time-outs, periodic messages.
   virtual void tick(Micros now, Outbox& out) = 0;
   [[nodiscard]] virtual Micros tick_period() const { return std::chrono::milliseconds(100); }
-  /// Live: how long the steps between two rests may take together, for their Budget; nothing: as long as they
-  /// like.
+  /// Live: how long after its arrival a frame may be worked on, for the Budget; nothing: to the end.
   [[nodiscard]] virtual std::optional<Micros> deadline() const { return std::nullopt; }
   /// The process ends: the last thing that it has to say.
   virtual void stop(Micros /*now*/, Outbox& /*out*/) {}

@@ -67,5 +67,35 @@ TEST(LatencyHistogram, TakesNothingAndExtremes) {
   EXPECT_EQ(histogram.percentile_ms(1.0), 3.6e8);
 }
 
+TEST(RecentLatency, ForgetsWhatIsOlderThanTwoWindows) {
+  using std::chrono::milliseconds;
+  using std::chrono::seconds;
+  const RecentLatency::Instant begin = RecentLatency::Instant{} + seconds(1000);
+  RecentLatency latency;
+  latency.add(milliseconds(500), begin);
+  for (int s = 1; s < 15; ++s) latency.add(milliseconds(1), begin + seconds(s));
+  EXPECT_EQ(latency.recent(begin + seconds(15)).max_ms(), 500.0);
+  EXPECT_EQ(latency.recent(begin + seconds(15)).count(), 15);
+  for (int s = 15; s < 25; ++s) latency.add(milliseconds(1), begin + seconds(s));
+  EXPECT_EQ(latency.recent(begin + seconds(25)).max_ms(), 1.0);
+  EXPECT_EQ(latency.recent(begin + seconds(100)).count(), 0);
+  latency.add(milliseconds(2), begin + seconds(100));
+  EXPECT_EQ(latency.recent(begin + seconds(100)).count(), 1);
+}
+
+TEST(LogClock, KeepsToOneTimeOverStreamsThatLagOrJump) {
+  LogClock clock;
+  clock.advance(100'000'000, "POSE");
+  clock.advance(99'950'000, "CLOUD");
+  EXPECT_EQ(clock.now(), Micros(100'000'000));
+  clock.advance(99'950'000 - 30'000'000, "GOAL");  // sent by a tool with another clock: no effect
+  EXPECT_EQ(clock.now(), Micros(100'000'000));
+  clock.advance(5'000'000'000, "MAP_REQUEST");
+  EXPECT_EQ(clock.now(), Micros(100'000'000));
+  clock.advance(100'100'000, "POSE");
+  EXPECT_EQ(clock.now(), Micros(100'100'000));
+  EXPECT_EQ(clock.jumps(), 0);
+}
+
 }  // namespace
 }  // namespace floornav

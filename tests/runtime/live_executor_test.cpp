@@ -232,5 +232,19 @@ TEST_F(Live, LetsLogTimeRunOnALittleAfterTheLogsEnd) {
   EXPECT_TRUE(answers.wait_for([](const goal_t& g) { return g.seq >= 2; }));
 }
 
+TEST_F(Live, TakesALogThatIsPlayedAgain) {
+  EchoNode node("echo", "IN", "OUT");
+  Listener<goal_t> answers(hub_, "OUT");
+  const Running running(hub_, node, {.log_time = true});
+  for (int round = 0; round < 3; ++round) {
+    for (int seq = 1; seq <= 3; ++seq) {
+      goal_t goal = goal_of(1, seq, seq);
+      goal.utime = 2'000'000 * seq;
+      hub_.publish(encoded("IN", goal));
+    }
+  }
+  EXPECT_TRUE(answers.wait_for([](const goal_t& g) { return g.seq == 9; }));
+}
+
 }  // namespace
 }  // namespace floornav
