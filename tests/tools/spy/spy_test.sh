@@ -60,13 +60,14 @@ within 60 "spy shows no window" xdotool search --onlyvisible --name '^LCM Spy$'
 row=0
 for channel in BUMBLEBEE_CLOUD GOAL GRID_MAP HEALTH KINECT_CLOUD LOCAL_TO_GLOBAL MAP_REQUEST PATH POSE SURFELS \
   TERRAIN_MAP; do
-  open_viewer() {
-    xdotool search --onlyvisible --name "^$channel\$" && return
+  shown() { xdotool search --onlyvisible --name "^$channel\$"; }
+  open_viewer() {  # a click again while the viewer is on its way would fall on the viewer
+    xdotool search --onlyvisible --name '^LCM Spy$' windowraise
     xdotool mousemove 60 $((27 + 16 * row)) click --repeat 2 --delay 60 1
-    sleep 1
-    xdotool search --onlyvisible --name "^$channel\$"
+    for _ in {1..40}; do shown && return; sleep 0.25; done
+    return 1
   }
-  within 30 "no viewer for $channel" open_viewer
+  within 60 "no viewer for $channel" open_viewer
   xdotool search --onlyvisible --name "^$channel\$" windowmove $((row % 3 * 500)) $((240 + row / 3 * 220))
   row=$((row + 1))
 done
