@@ -10,8 +10,8 @@ class Parallel {
   virtual ~Parallel() = default;
   /// Number of workers; `worker` below is smaller, so that each can own its scratch memory.
   [[nodiscard]] virtual int workers() const = 0;
-  /// Calls piece(index, worker) once for each index in [0, count), starting them in order; returns when all are done.
-  /// An exception of a piece is thrown here after the others have ended.
+  /// Calls piece(index, worker) once for each index in [0, count), starting them in order; returns when all
+  /// are done. An exception of a piece is thrown here after the others have ended.
   virtual void run(int count, const std::function<void(int index, int worker)>& piece) = 0;
 };
 

@@ -4,7 +4,8 @@
 
 namespace floornav {
 
-/// An ideal camera: x right, y down, z forward; pixel (column u, row v) looks along ((u-cx)/fx, (v-cy)/fy, 1).
+/// An ideal camera: x right, y down, z forward; pixel (column u, row v) looks along ((u-cx)/fx, (v-cy)/fy,
+/// 1).
 struct Pinhole {
   float fx = 525.0F;  ///< px
   float fy = 525.0F;  ///< px

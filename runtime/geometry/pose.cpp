@@ -27,7 +27,9 @@ void pose_to_arrays(const Pose& pose, double position[3], double quaternion_wxyz
   Eigen::Map<Eigen::Vector3d>{position} = pose.translation();
 }
 
-double heading_of(const Pose& pose) { return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)); }
+double heading_of(const Pose& pose) {
+  return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0));
+}
 
 Pose interpolate(const Pose& a, const Pose& b, double fraction) {
   Pose pose = Pose::Identity();

@@ -7,8 +7,8 @@ namespace floornav {
 /// A rigid transform; `T_a_b` maps coordinates in frame b to coordinates in frame a. Metres.
 using Pose = Eigen::Isometry3d;
 
-/// From a position (m) and a quaternion w x y z as messages carry it. Any non-zero finite quaternion is normalised;
-/// throws std::invalid_argument for a zero or non-finite one or a non-finite position.
+/// From a position (m) and a quaternion w x y z as messages carry it. Any non-zero finite quaternion is
+/// normalised; throws std::invalid_argument for a zero or non-finite one or a non-finite position.
 Pose pose_from_arrays(const double position[3], const double quaternion_wxyz[4]);
 
 /// The inverse of pose_from_arrays.

@@ -14,8 +14,8 @@ class PoseHistory {
  public:
   explicit PoseHistory(std::int64_t span_us = 5'000'000) : span_us_(span_us) {}
 
-  /// Adds the pose of the body in the local frame. False, and nothing changes, where `utime_us` is not newer than the
-  /// newest one held.
+  /// Adds the pose of the body in the local frame. False, and nothing changes, where `utime_us` is not newer
+  /// than the newest one held.
   bool insert(std::int64_t utime_us, const Pose& T_world_body);
 
   /// The pose at a time between two held ones (or exactly at one); nothing where no two bracket it.

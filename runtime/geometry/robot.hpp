@@ -6,13 +6,13 @@ namespace floornav {
 
 /// The robot as the cores see it. Defaults: a MobileRobots PowerBot.
 struct RobotSettings {
-  double radius_m = 0.45;              ///< circle around the body's origin that holds the footprint
-  double height_m = 0.75;              ///< with sensors: lower things block, higher ones do not
-  double ground_clearance_m = 0.04;    ///< under the chassis
-  double max_step_m = 0.02;            ///< T of eq. (2): the highest step that the wheels take
-  double max_slope_deg = 10.0;         ///< steepest floor that it drives
-  double center_of_gravity_m = 0.30;   ///< above the floor
-  double track_m = 0.54;               ///< between the wheels, for tipping over
+  double radius_m = 0.45;             ///< circle around the body's origin that holds the footprint
+  double height_m = 0.75;             ///< with sensors: lower things block, higher ones do not
+  double ground_clearance_m = 0.04;   ///< under the chassis
+  double max_step_m = 0.02;           ///< T of eq. (2): the highest step that the wheels take
+  double max_slope_deg = 10.0;        ///< steepest floor that it drives
+  double center_of_gravity_m = 0.30;  ///< above the floor
+  double track_m = 0.54;              ///< between the wheels, for tipping over
   double max_speed_mps = 1.0;
   double max_acceleration_mps2 = 0.5;
   double max_turn_rate_radps = 1.5;

@@ -1,4 +1,5 @@
-// final-map LOG: puts the GRID_MAP messages of a log together and prints the vertices that were seen: "ix iy state".
+// final-map LOG: puts the GRID_MAP messages of a log together and prints the vertices that were seen: "ix iy
+// state".
 
 #include <algorithm>
 #include <cstdio>
@@ -22,7 +23,8 @@ GridMapReceiver read_map(const char* log) {
     if (event.channel != channel::kGridMap) continue;
     grid_map_t message;
     const int size = static_cast<int>(event.bytes.size());
-    if (message.decode(event.bytes.data(), 0, size) != size) throw LogError("a GRID_MAP that does not decode");
+    if (message.decode(event.bytes.data(), 0, size) != size)
+      throw LogError("a GRID_MAP that does not decode");
     receiver.apply(message);
   }
   return receiver;
@@ -33,7 +35,8 @@ void print(const GridMap& map) {
   for (const auto& [tile, vertices] : map.tiles())
     for (std::int32_t k = 0; k < GridTile::kVertices; ++k)
       if (vertices->state[static_cast<std::size_t>(k)] != VertexState::kUnknown)
-        seen[{tile.ix * GridTile::kSide + k % GridTile::kSide, tile.iy * GridTile::kSide + k / GridTile::kSide}] =
+        seen[{tile.ix * GridTile::kSide + k % GridTile::kSide,
+              tile.iy * GridTile::kSide + k / GridTile::kSide}] =
             vertices->state[static_cast<std::size_t>(k)];
   for (const auto& [vertex, state] : seen)
     std::printf("%d %d %s\n", vertex.ix, vertex.iy, state == VertexState::kFree ? "free" : "blocked");

@@ -19,7 +19,8 @@ constexpr std::size_t kMostWaiting = 40;
 double depth_of(const depth_cloud_t& cloud, std::uint16_t pixel) {
   if (pixel == 0) return 0;
   const double value = static_cast<double>(pixel) * static_cast<double>(cloud.scale);
-  return cloud.meaning == depth_cloud_t::DEPTH ? value : static_cast<double>(cloud.fx * cloud.baseline) / value;
+  return cloud.meaning == depth_cloud_t::DEPTH ? value
+                                               : static_cast<double>(cloud.fx * cloud.baseline) / value;
 }
 
 /// The part of the map in which the frame saw something.
