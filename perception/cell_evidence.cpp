@@ -23,7 +23,7 @@ struct PlanePart {
 
 /// Sums the points of one surfel (or those on none, for -1).
 PlanePart part_of(std::span<const CellPoint> points, std::int16_t surfel) {
-  double z = 0.0, rise = 0.0, var = 0.0;
+  double z = 0.0, rise = 0.0, var = 0.0, common = 0.0;
   float max_z = -std::numeric_limits<float>::infinity();
   int count = 0;
   for (const CellPoint& p : points) {
@@ -31,11 +31,13 @@ PlanePart part_of(std::span<const CellPoint> points, std::int16_t surfel) {
     z += static_cast<double>(p.z_m);
     rise += static_cast<double>(p.rise_m);
     var += static_cast<double>(p.var_m2);
+    common += static_cast<double>(p.common_m2);
     max_z = std::max(max_z, p.z_m);
     ++count;
   }
   const double n = count;
-  return {static_cast<float>(z / n), max_z, static_cast<float>(rise / n), static_cast<float>(var / (n * n))};
+  return {static_cast<float>(z / n), max_z, static_cast<float>(rise / n),
+          static_cast<float>(var / (n * n) + common / n)};
 }
 
 /// The highest surfel with a fair share of the points, -1 where there is none.
@@ -101,16 +103,17 @@ void summarize_cell(std::span<const CellPoint> points, std::size_t surfels, floa
     cell.top_z_m = robust_top(points, part.max_z + rise, scratch.heights);
     return;
   }
-  double z = 0.0, var = 0.0;
+  double z = 0.0, var = 0.0, common = 0.0;
   scratch.heights.clear();
   for (const CellPoint& p : points) {
     z += static_cast<double>(p.z_m);
     var += static_cast<double>(p.var_m2);
+    common += static_cast<double>(p.common_m2);
     scratch.heights.push_back(p.z_m);
   }
   const auto n = static_cast<double>(points.size());
   cell.mean_z_m = static_cast<float>(z / n);
-  cell.var_z_m2 = static_cast<float>(var / (n * n));
+  cell.var_z_m2 = static_cast<float>(var / (n * n) + common / n);
   cell.top_z_m = quantile(scratch.heights, kTopQuantile);
 }
 

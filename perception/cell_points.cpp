@@ -62,7 +62,7 @@ void CellSorter::place_section(const RoiCloud& cloud, std::span<const std::int16
     const Eigen::Vector3f ray(cloud.ray_x[i], cloud.ray_y[i], 1.0F);
     const float sigma_depth = cloud.z[i] * cloud.z[i] / cloud.certainty[i];
     float depth = cloud.z[i];
-    CellPoint point{-1, 0.0F, 0.0F, 0.0F};
+    CellPoint point{-1, 0.0F, 0.0F, 0.0F, 0.0F};
     float per_depth = (R * ray).z();  // vertical metres a metre of depth
     if (label[i] >= 0) {
       const PlaneInWorld& plane = planes[static_cast<std::size_t>(label[i])];
@@ -75,6 +75,7 @@ void CellSorter::place_section(const RoiCloud& cloud, std::span<const std::int16
       }
     }
     point.var_m2 = sigma_depth * sigma_depth * per_depth * per_depth;
+    point.common_m2 = roughness_m_ * roughness_m_ * per_depth * per_depth;
     const Eigen::Vector3d world = sensor + (depth * (R * ray)).cast<double>();
     point.z_m = static_cast<float>(world.z());
     cell_[i] = window.at(world.x(), world.y());

@@ -18,6 +18,7 @@ struct CellPoint {
   float z_m;            ///< of the point moved along its ray onto its plane; as measured where it has none
   float rise_m;         ///< vertical distance of the measured surface above the plane; 0 without a plane
   float var_m2;         ///< of rise_m, or of z_m without a plane, by eq. (3) / (4)
+  float common_m2;      ///< variance that the cell's points have in common: their mean keeps it
 };
 
 /// The points of the frame sorted by cell; within a cell in the cloud's order.
@@ -43,6 +44,8 @@ struct SectionResult {
 /// first: so its noise, which runs along the ray, does not carry it into a neighbouring cell.
 class CellSorter {
  public:
+  explicit CellSorter(const RoiSettings& roi) : roughness_m_(static_cast<float>(roi.roughness_m)) {}
+
   void sort(const RoiCloud& cloud, std::span<const std::int16_t> label,
             std::span<const SectionResult> sections, const SensorView& view, const CellWindow& window,
             Parallel& parallel, CellPoints& out);
@@ -51,6 +54,7 @@ class CellSorter {
   void place_section(const RoiCloud& cloud, std::span<const std::int16_t> label, int section,
                      const SectionResult& result, const SensorView& view, const CellWindow& window);
 
+  float roughness_m_;
   std::vector<std::int32_t> cell_;  ///< a point of the cloud: its cell, -1 none
   std::vector<CellPoint> placed_;   ///< a point of the cloud
 };

@@ -34,6 +34,7 @@ FloorPerception::FloorPerception(const PerceptionSettings& settings, const Robot
       grid_(settings.roi, settings.sections),
       clipper_(settings.roi, grid_),
       plane_finder_(settings.planes, robot),
+      cell_sorter_(settings.roi),
       tracer_(settings.roi, settings.cells, grid_),
       memory_(static_cast<std::size_t>(grid_.count())) {}
 

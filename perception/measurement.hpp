@@ -16,7 +16,7 @@ struct Measurement {
 
 /// Inverse depth and its certainty by eq. (3) / (4); for depth pixels the rounding to whole counts adds its
 /// share. False where nothing came back or the value is absurd.
-inline Measurement measure(const DepthFrame& frame, std::size_t pixel) {
+inline Measurement measure(const DepthFrame& frame, std::size_t pixel, float roughness_m) {
   constexpr float kMaxDepth_m = 100.0F;
   constexpr float kRounding = 0.288675F;  // deviation of a uniform distribution of width 1
   const float value = static_cast<float>(frame.pixels[pixel]) * frame.scale;
@@ -29,8 +29,10 @@ inline Measurement measure(const DepthFrame& frame, std::size_t pixel) {
   const bool is_depth = frame.meaning == PixelMeaning::kDepth;
   const float inverse_depth = is_depth ? 1.0F / value : value * per_disparity;
   if (!(inverse_depth * kMaxDepth_m > 1.0F)) return {};
-  const float rounding = is_depth ? frame.scale * kRounding * inverse_depth * inverse_depth : 0.0F;
-  return {inverse_depth, 1.0F / std::sqrt(sigma * sigma + rounding * rounding)};
+  const float rounding_m = is_depth ? frame.scale * kRounding : 0.0F;
+  const float added = (roughness_m * roughness_m + rounding_m * rounding_m) * inverse_depth * inverse_depth *
+                      inverse_depth * inverse_depth;
+  return {inverse_depth, 1.0F / std::sqrt(sigma * sigma + added)};
 }
 
 }  // namespace floornav

@@ -59,7 +59,7 @@ void RoiClipper::sort_band(const DepthFrame& frame, const SensorView& view, int 
     std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.camera.width);
     for (int column = 0; column < frame.camera.width; ++column, ++pixel) {
       section_of_pixel_[pixel] = -1;
-      const Measurement m = measure(frame, pixel);
+      const Measurement m = measure(frame, pixel, static_cast<float>(settings_.roughness_m));
       const float depth = 1.0F / m.inverse_depth;
       if (!m) {
         ++band.counts.no_measurement;
@@ -110,7 +110,7 @@ void RoiClipper::fill_band(const DepthFrame& frame, int first_row, int end_row, 
       const int section = section_of_pixel_[pixel];
       if (section < 0) continue;
       const auto i = static_cast<std::size_t>(band.next[static_cast<std::size_t>(section)]++);
-      const Measurement m = measure(frame, pixel);
+      const Measurement m = measure(frame, pixel, static_cast<float>(settings_.roughness_m));
       const Eigen::Vector3f ray = frame.camera.ray(static_cast<float>(column), static_cast<float>(row));
       const float depth = 1.0F / m.inverse_depth;
       cloud.x[i] = ray.x() * depth;

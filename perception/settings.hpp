@@ -15,6 +15,7 @@ struct RoiSettings {
   double z_max_m = 0.75;        ///< the robot's height with its sensors
   double min_range_m = 0.3;     ///< nearest depth that counts
   double max_sigma_z_m = 0.06;  ///< a point whose depth is less certain is trimmed
+  double roughness_m = 0.0015;  ///< 1 sigma that surfaces and calibration add to the sensor's depth noise
 };
 
 /// Sub-sections of the ROI (section 4.3).
@@ -66,6 +67,7 @@ void visit_settings(Visitor& visit, RoiSettings& s) {
   visit("z_max_m", s.z_max_m, Allowed{-5.0, 5.0});
   visit("min_range_m", s.min_range_m, Allowed{0.01, 10.0});
   visit("max_sigma_z_m", s.max_sigma_z_m, Allowed{0.001, 1.0});
+  visit("roughness_m", s.roughness_m, Allowed{0.0, 0.1});
 }
 
 template <class Visitor>

@@ -75,7 +75,8 @@ void SightLineTracer::measure_row(const DepthFrame& frame, int row) {
   row_.resize(static_cast<std::size_t>(width));
   gap_.assign(static_cast<std::size_t>(width), Gap{});
   const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
-  for (std::size_t u = 0; u < row_.size(); ++u) row_[u] = measure(frame, first + u);
+  for (std::size_t u = 0; u < row_.size(); ++u)
+    row_[u] = measure(frame, first + u, static_cast<float>(roi_.roughness_m));
   for (std::size_t begin = 0; begin < row_.size();) {
     std::size_t end = begin;
     while (end < row_.size() && !row_[end]) ++end;
