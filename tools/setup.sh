@@ -23,11 +23,15 @@ install_packages() {
     { tail -n 5 "${TMPDIR:-/tmp}/floornav-apt.log" >&2; die "apt-get install failed"; }
 }
 
-# build PRESET FOLDER [CMAKE OPTION...]: configures where needed, and builds.
+# build PRESET FOLDER [BUILD OPTION...] [-- CMAKE OPTION...]: configures where needed, and builds.
 build() {
-  local preset=$1 folder=$2
+  local preset=$1 folder=$2 options=()
   shift 2
-  cmake --preset "$preset" "$@" >"$folder.configure.log" 2>&1 || { tail -n 20 "$folder.configure.log" >&2; die "cmake failed"; }
-  rm -f "$folder.configure.log"
-  cmake --build "$folder"
+  while [ $# -gt 0 ] && [ "$1" != -- ]; do options+=("$1"); shift; done
+  [ $# -eq 0 ] || shift
+  local log
+  log=$(mktemp)
+  cmake --preset "$preset" "$@" >"$log" 2>&1 || { tail -n 20 "$log" >&2; rm -f "$log"; die "cmake failed"; }
+  rm -f "$log"
+  cmake --build "$folder" "${options[@]}"
 }
