@@ -30,6 +30,7 @@ void add_drops(health_t& health, const std::map<std::string, ChannelCounts>& cou
     add_drop(health, channel + " superseded", c.superseded);
     add_drop(health, channel + " old", c.old);
     add_drop(health, channel + " rival", c.rival);
+    add_drop(health, channel + " unconfirmed", c.unconfirmed);
     add_drop(health, channel + " lost", c.lost);
   }
 }
@@ -37,6 +38,17 @@ void add_drops(health_t& health, const std::map<std::string, ChannelCounts>& cou
 void worsen(health_t& health, std::int8_t state, const std::string& reason) {
   health.state = std::max(health.state, state);
   health.reason += (health.reason.empty() ? "" : "; ") + reason;
+}
+
+void make_printable(health_t& health) {
+  const auto clean = [](std::string& text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c < 0x20 || c > 0x7E; }, '?');
+  };
+  clean(health.reason);
+  for (rate_t& rate : health.rates) clean(rate.channel);
+  for (latency_t& latency : health.latencies) clean(latency.what);
+  for (drop_t& drop : health.drops) clean(drop.cause);
 }
 
 }  // namespace floornav

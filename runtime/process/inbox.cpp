@@ -23,6 +23,9 @@ bool Inbox::in_order(Entry& entry, const std::string& source, std::int64_t sessi
     case Verdict::kOld:
       ++entry.counts.old;
       return false;
+    case Verdict::kUnconfirmed:
+      ++entry.counts.unconfirmed;
+      return false;
     case Verdict::kRival:
       ++entry.counts.rival;
       return false;

@@ -25,12 +25,13 @@ enum class Keep {
 
 /// What happened to the messages of one channel.
 struct ChannelCounts {
-  std::int64_t received = 0;    ///< all that came, whatever became of them
-  std::int64_t malformed = 0;   ///< did not decode, or the handler refused it by an exception
-  std::int64_t superseded = 0;  ///< a newer one came before the node had time
-  std::int64_t old = 0;         ///< duplicate, or of an older session or seq
-  std::int64_t rival = 0;       ///< of a second session of a source whose first one is alive
-  std::int64_t lost = 0;        ///< gaps in seq
+  std::int64_t received = 0;     ///< all that came, whatever became of them
+  std::int64_t malformed = 0;    ///< did not decode, or the handler refused it by an exception
+  std::int64_t superseded = 0;   ///< a newer one came before the node had time
+  std::int64_t old = 0;          ///< duplicate, or of an older session or seq
+  std::int64_t rival = 0;        ///< of a second session of a source whose first one is alive
+  std::int64_t unconfirmed = 0;  ///< the first one of a new session, or far ahead of the others
+  std::int64_t lost = 0;         ///< gaps in seq
 };
 
 /// A node's subscriptions: decodes safely, checks session and seq where the type has them, counts, and lets

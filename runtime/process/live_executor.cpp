@@ -231,6 +231,7 @@ health_t LiveExecutor::health(Instant now) {
   rivals_.report(health, now);
   health.n_latencies = static_cast<std::int32_t>(health.latencies.size());  // whatever the node counted
   health.n_drops = static_cast<std::int32_t>(health.drops.size());
+  make_printable(health);
   return health;
 }
 

@@ -19,23 +19,29 @@ concept Sequenced = requires(Message m) {
 };
 
 /// Orders the messages of one channel by session and seq. Several sources on the channel are told apart by
-/// name.
+/// name. No single message can shut its source out: a new session, or a seq far ahead, holds from its second
+/// message on.
 class SequenceCheck {
  public:
   enum class Verdict {
-    kNew,      ///< take it
-    kOld,      ///< duplicate, or of an older seq or session
-    kRival,    ///< of a second session while the first one is alive: somebody plays a log, or a process runs
-               ///< twice
-    kInvalid,  ///< session 0 or seq < 1
+    kNew,    ///< take it
+    kOld,    ///< duplicate, or of an older seq or session
+    kRival,  ///< of a second session while the first one is alive: somebody plays a log, or a process runs
+             ///< twice
+    kUnconfirmed,  ///< of a new session or far ahead: waits for a second message that agrees
+    kInvalid,      ///< session 0 or seq < 1
   };
   struct Result {
     Verdict verdict = Verdict::kNew;
     std::int64_t missing = 0;  ///< messages between this one and the last one taken of its source
   };
 
-  /// How long a session must have been silent before another one of the same source takes its place.
+  /// How long a session must have been silent before another one of the same source takes its place: at least
+  /// this, and three times what lay between its last two messages, but not more than kLongestSilence.
   static constexpr Micros kSessionSilence = std::chrono::milliseconds(500);
+  static constexpr Micros kLongestSilence = std::chrono::seconds(5);
+  /// A seq that is farther ahead (of 1, for a source never heard) needs a second message that agrees.
+  static constexpr std::int64_t kMaxMissing = 1000;
 
   Result check(const std::string& source, std::int64_t session, std::int64_t seq, Micros now);
 
@@ -44,8 +50,12 @@ class SequenceCheck {
     std::int64_t session = 0;
     std::int64_t last_seq = 0;
     Micros heard{0};
+    Micros interval{0};                ///< between the last two messages taken
+    std::int64_t suspect_session = 0;  ///< of the last message that waits for another one that agrees
+    std::int64_t suspect_seq = 0;
     std::deque<std::int64_t> replaced;  ///< sessions that will not come back
   };
+  static bool is_confirmed(Source& known, std::int64_t session, std::int64_t seq);
   Source& source_of(const std::string& name);
 
   std::map<std::string, Source> sources_;

@@ -82,14 +82,49 @@ TEST_F(GoalInbox, TellsSourcesApart) {
   EXPECT_EQ(counts().lost, 0);
 }
 
-TEST_F(GoalInbox, TakesARestartedSenderAndNotItsOldSession) {
+TEST_F(GoalInbox, TakesARestartedSenderFromItsSecondMessageOnAndNotItsOldSession) {
   deliver("a", 1, 100, milliseconds(0));
   deliver("a", 2, 1, milliseconds(600));
-  deliver("a", 1, 101, milliseconds(601));
+  deliver("a", 2, 2, milliseconds(610));
+  deliver("a", 1, 101, milliseconds(611));
   deliver("a", 1, 102, milliseconds(5000));
-  deliver("a", 2, 2, milliseconds(5001));
-  EXPECT_EQ(taken_, (std::vector<std::int64_t>{100, 1, 2}));
+  deliver("a", 2, 3, milliseconds(5001));
+  EXPECT_EQ(taken_, (std::vector<std::int64_t>{100, 2, 3}));
   EXPECT_EQ(counts().old, 2);
+  EXPECT_EQ(counts().unconfirmed, 1);
+}
+
+TEST_F(GoalInbox, IsNotShutByOneMessageWithADamagedSessionOrSeq) {
+  std::int64_t seq = 0;
+  for (int i = 0; i < 10; ++i) deliver("a", 1, ++seq, milliseconds(100 * i));
+  deliver("a", 1, std::int64_t{1} << 40, milliseconds(1000));
+  deliver("a", 1, ++seq, milliseconds(1001));
+  deliver("a", 77, 5, milliseconds(2000));  // after a silence
+  for (int i = 0; i < 10; ++i) deliver("a", 1, ++seq, milliseconds(2001 + 100 * i));
+  EXPECT_EQ(taken_.size(), 21U);
+  EXPECT_EQ(counts().unconfirmed, 2);
+  EXPECT_EQ(counts().old + counts().rival + counts().lost, 0);
+}
+
+TEST_F(GoalInbox, IsNotShutByADamagedFirstMessage) {
+  deliver("a", 1, std::int64_t{1} << 40);
+  for (int seq = 1; seq <= 5; ++seq) deliver("a", 1, seq);
+  EXPECT_EQ(taken_.size(), 5U);
+}
+
+TEST_F(GoalInbox, JoinsLateAndAfterALongGap) {
+  for (const std::int64_t seq : {50'000, 50'001, 50'002, 90'000, 90'001, 90'002}) deliver("a", 1, seq);
+  EXPECT_EQ(taken_, (std::vector<std::int64_t>{50'001, 50'002, 90'001, 90'002}));
+  EXPECT_EQ(counts().lost, 90'000 - 50'002);
+}
+
+TEST_F(GoalInbox, WaitsLongerForAnotherSessionOfASlowSender) {
+  for (int i = 0; i < 10; ++i) {
+    deliver("a", 1, 1 + i, milliseconds(1000 * i));
+    deliver("a", 2, 1 + i, milliseconds(1000 * i + 700));
+  }
+  EXPECT_EQ(taken_.size(), 10U);
+  EXPECT_EQ(counts().rival + counts().unconfirmed, 10);
 }
 
 TEST_F(GoalInbox, RefusesASecondSessionWhileTheFirstLives) {
@@ -110,12 +145,12 @@ TEST_F(GoalInbox, RefusesSessionZeroAndSeqZero) {
 }
 
 TEST_F(GoalInbox, SurvivesExtremeSeqs) {
-  deliver("a", 1, 1);
-  deliver("a", 1, std::numeric_limits<std::int64_t>::max());
-  deliver("b", 1, 1);
-  deliver("b", 1, std::numeric_limits<std::int64_t>::max());
-  EXPECT_EQ(taken_.size(), 4U);
-  EXPECT_EQ(counts().lost, std::numeric_limits<std::int64_t>::max());
+  constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
+  for (const char* source : {"a", "b"}) {
+    for (const std::int64_t seq : {std::int64_t{1}, kMax - 1, kMax, kMax}) deliver(source, 1, seq);
+  }
+  EXPECT_EQ(taken_, (std::vector<std::int64_t>{1, kMax, 1, kMax}));
+  EXPECT_EQ(counts().lost, kMax);
 }
 
 TEST_F(GoalInbox, RemembersABoundedNumberOfSources) {

@@ -172,9 +172,11 @@ TEST_F(Live, TellsOfAnotherPublisherOnItsChannel) {
   const Running running(hub_, node);
   ASSERT_TRUE(answered(answers, 1));
   ASSERT_TRUE(healths.wait_for([](const health_t& h) { return h.state == health_t::OK; }));
-  hub_.publish(encoded("OUT", goal_of(99, 1)));
+  goal_t rival = goal_of(99, 1);
+  rival.source = "send\ner\x01";
+  hub_.publish(encoded("OUT", rival));
   ASSERT_TRUE(healths.wait_for([](const health_t& h) { return h.state == health_t::DEGRADED; }));
-  EXPECT_THAT(healths.all.back().reason, testing::HasSubstr("'sender' also publishes OUT"));
+  EXPECT_THAT(healths.all.back().reason, testing::HasSubstr("'send?er?' also publishes OUT"));
   EXPECT_TRUE(healths.wait_for([](const health_t& h) { return h.state == health_t::OK; }));
 }
 
