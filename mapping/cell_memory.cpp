@@ -38,12 +38,21 @@ void support(Level& level, const Sighting& sighting, const FusionLimits& limits)
   }
 }
 
+/// A table top can be looked under: rays and floor far below a plane in its cell came in from the side and
+/// say nothing of it.
+bool looks_under(float z_m, const Level& level) {
+  constexpr float kTable_m = 0.4F;
+  return !level.column && level.z_m - z_m > kTable_m;
+}
+
 /// What a frame that did not see the level takes from its support.
 std::int32_t doubt(const Level& level, const CellView& view, const FusionLimits& limits) {
   constexpr float kMuchSharper = 4.0F;
-  std::int32_t doubt = view.ray_z_m < level.z_m - limits.ray_margin_m ? 1 : 0;
+  const bool ray_below = view.ray_z_m < level.z_m - limits.ray_margin_m;
+  std::int32_t doubt = ray_below && !looks_under(view.ray_z_m, level) ? 1 : 0;
   for (const Sighting& sighting : view.sightings) {
     if (sighting.column || sighting.z_m >= level.z_m || fits(level, sighting, limits)) continue;
+    if (looks_under(sighting.z_m, level)) continue;
     doubt = std::max(doubt, kMuchSharper * sighting.var_m2 < level.var_m2 ? 4 : 1);
   }
   return doubt;

@@ -40,7 +40,7 @@ Pose mounted_sensor(double height_m, double pitch_rad, double roll_rad) {
   body_from_level_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   Pose T_body_sensor = Pose::Identity();
   T_body_sensor.linear() = (Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
-                            Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX()))
+                            Eigen::AngleAxisd(-roll_rad, Eigen::Vector3d::UnitX()))
                                .toRotationMatrix() *
                            body_from_level_camera;
   T_body_sensor.translation().z() = height_m;

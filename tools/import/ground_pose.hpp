@@ -25,7 +25,7 @@ class BodyUnderCamera {
 };
 
 /// Sensor (x right, y down, z forward) above the body's origin: pitch positive looks down, roll positive
-/// leans to the right. Radians.
+/// leans to the left: its left side is the lower one. Radians.
 Pose mounted_sensor(double height_m, double pitch_rad, double roll_rad);
 
 }  // namespace floornav

@@ -41,7 +41,9 @@ void add_mounting(CLI::App& command, FixedMounting& mounting) {
       ->required()
       ->check(CLI::Range(-90.0, 90.0))
       ->type_name("P");
-  command.add_option("--roll", mounting.roll_deg, "Of the camera, degrees, positive leans to the right")
+  command
+      .add_option("--roll", mounting.roll_deg,
+                  "Of the camera, degrees, positive: its left side is the lower one")
       ->required()
       ->check(CLI::Range(-180.0, 180.0))
       ->type_name("R");

@@ -49,7 +49,7 @@ double light_on(const HeightRaster& terrain, int column, int row) {
   const double rise_x = (height_at(column + 1, row) - height_at(column - 1, row)) / span_m;
   const double rise_y = (height_at(column, row + 1) - height_at(column, row - 1)) / span_m;
   const double towards_light = (rise_x - rise_y) / std::numbers::sqrt2;
-  return std::isfinite(towards_light) ? 1 + 0.35 * std::tanh(kRelief * towards_light) : 1.0;
+  return std::isfinite(towards_light) ? 1 + 0.25 * std::tanh(kRelief * towards_light) : 1.0;
 }
 
 void paint_terrain(TopView& view, const HeightRaster& terrain, const HeightRange& range) {

@@ -56,7 +56,7 @@ FrameFloor floor_of(const std::vector<Surfel>& surfels, const Pose& T_world_sens
   floor.tilt_deg = angle_deg(normal, Eigen::Vector3d::UnitZ());
   const Eigen::Vector3d up = T_world_sensor.linear().transpose() * normal;  // x right, y down, z forward
   floor.camera_pitch_deg = std::asin(std::clamp(-up.z(), -1.0, 1.0)) * kDegPerRad;
-  floor.camera_roll_deg = std::atan2(-up.x(), -up.y()) * kDegPerRad;
+  floor.camera_roll_deg = std::atan2(up.x(), -up.y()) * kDegPerRad;
   return floor;
 }
 

@@ -13,7 +13,7 @@ struct FrameFloor {
   double tilt_deg = 0;          ///< angle between the floor's normal and the vertical
   double camera_height_m = 0;   ///< of the sensor above the floor's plane
   double camera_pitch_deg = 0;  ///< of the sensor against the floor, positive looks down
-  double camera_roll_deg = 0;   ///< positive leans to the right
+  double camera_roll_deg = 0;   ///< positive: its left side is the lower one
 };
 
 FrameFloor floor_of(const std::vector<Surfel>& surfels, const Pose& T_world_sensor);

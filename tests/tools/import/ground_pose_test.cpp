@@ -73,9 +73,9 @@ TEST(MountedSensor, SeesTheFloorWhereHeightAndPitchSay) {
   EXPECT_NEAR((T_body_sensor.linear() * Eigen::Vector3d::UnitX()).y(), -1, 1e-12);
 }
 
-TEST(MountedSensor, LeansToTheRightWithPositiveRoll) {
+TEST(MountedSensor, LeansToTheLeftWithPositiveRoll) {
   const Eigen::Vector3d right = mounted_sensor(1, 0, 10 * kRadPerDeg).linear() * Eigen::Vector3d::UnitX();
-  EXPECT_NEAR(right.z(), -std::sin(10 * kRadPerDeg), 1e-12);
+  EXPECT_NEAR(right.z(), std::sin(10 * kRadPerDeg), 1e-12);
 }
 
 }  // namespace
