@@ -3,12 +3,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/bench/planner_command.hpp"
 #include "tools/bench/table1_command.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app("Measures the claims of floornav", "floornav-bench");
   app.require_subcommand(1);
   try {
+    floornav::add_planner_command(app);
     floornav::add_table1_command(app);
     CLI11_PARSE(app, argc, argv);
   } catch (const std::exception& e) {
