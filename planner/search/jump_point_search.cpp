@@ -114,7 +114,7 @@ SearchOutcome JumpPointSearch::search(const BitGrid& grid, GridCell start, GridC
 }
 
 /// Goes on straight to the next jump point, if there is one.
-void JumpPointSearch::scan_straight(GridCell from, std::size_t k, std::uint32_t cost, std::uint32_t parent) {
+void JumpPointSearch::scan_straight(GridCell from, std::size_t k, std::uint64_t cost, std::uint32_t parent) {
   const bool along_rows = k == 0 || k == 4;
   const BitGrid::Lines& lines = along_rows ? grid_->rows() : grid_->columns();
   const std::int32_t index = along_rows ? from.y : from.x, at = along_rows ? from.x : from.y;
@@ -125,11 +125,11 @@ void JumpPointSearch::scan_straight(GridCell from, std::size_t k, std::uint32_t 
   if (to == kNone) return;
   const GridCell cell = along_rows ? GridCell{to, from.y} : GridCell{from.x, to};
   reach(cell, directions_after(cell, k),
-        cost + kSteps.straight * static_cast<std::uint32_t>(std::abs(to - at)), parent);
+        cost + std::uint64_t{kSteps.straight} * static_cast<std::uint32_t>(std::abs(to - at)), parent);
 }
 
 /// Goes on diagonally as far as the corner rule allows, and from each cell straight to both sides.
-void JumpPointSearch::scan_diagonal(GridCell from, std::size_t k, std::uint32_t cost, std::uint32_t parent) {
+void JumpPointSearch::scan_diagonal(GridCell from, std::size_t k, std::uint64_t cost, std::uint32_t parent) {
   const std::size_t a = k - 1, b = (k + 1) % 8;
   const auto step = [](GridCell c, std::size_t d) { return GridCell{c.x + kStepX[d], c.y + kStepY[d]}; };
   while (grid_->free(step(from, a)) && grid_->free(step(from, b)) && grid_->free(step(from, k))) {
@@ -154,18 +154,20 @@ std::uint8_t JumpPointSearch::directions_after(GridCell cell, std::size_t k) con
   return static_cast<std::uint8_t>(directions);
 }
 
-void JumpPointSearch::reach(GridCell cell, std::uint8_t directions, std::uint32_t cost,
+void JumpPointSearch::reach(GridCell cell, std::uint8_t directions, std::uint64_t cost,
                             std::uint32_t parent) {
+  const std::uint64_t priority = cost + octile(goal_.x - cell.x, goal_.y - cell.y, kSteps);
+  if (priority > std::numeric_limits<std::uint32_t>::max()) return;  // as AStar, which expands no such cell
   Node& node = nodes_[index(cell)];
   if (node.search != number_ || cost < node.cost) {
-    node = {cost, number_, parent, directions, 0};
+    node = {static_cast<std::uint32_t>(cost), number_, parent, directions, 0};
   } else {
     // A way of the same length from another side may go on where the first one may not.
     const auto more = static_cast<std::uint8_t>(directions & ~(node.to_scan | node.scanned));
     if (cost > node.cost || more == 0) return;
     node.to_scan |= more;
   }
-  open_.push_back({cost + octile(goal_.x - cell.x, goal_.y - cell.y, kSteps), pack(cell)});
+  open_.push_back({static_cast<std::uint32_t>(priority), pack(cell)});
   std::push_heap(open_.begin(), open_.end(), std::greater<>());
 }
 

@@ -40,9 +40,9 @@ class JumpPointSearch {
   };
 
   void prepare(const BitGrid& grid, GridCell start, GridCell goal);
-  void scan_straight(GridCell from, std::size_t k, std::uint32_t cost, std::uint32_t parent);
-  void scan_diagonal(GridCell from, std::size_t k, std::uint32_t cost, std::uint32_t parent);
-  void reach(GridCell cell, std::uint8_t directions, std::uint32_t cost, std::uint32_t parent);
+  void scan_straight(GridCell from, std::size_t k, std::uint64_t cost, std::uint32_t parent);
+  void scan_diagonal(GridCell from, std::size_t k, std::uint64_t cost, std::uint32_t parent);
+  void reach(GridCell cell, std::uint8_t directions, std::uint64_t cost, std::uint32_t parent);
   [[nodiscard]] std::uint8_t directions_after(GridCell cell, std::size_t k) const;
   [[nodiscard]] std::uint32_t index(GridCell cell) const {
     return static_cast<std::uint32_t>(cell.y) * static_cast<std::uint32_t>(grid_->width()) +
