@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kUpright = 50.0F;       // rise per metre of what has no slope: 89 degrees
 constexpr float kSteepestPlane = 1.0F;  // rise per metre: 45 degrees
-constexpr std::int32_t kPointsThatStandOut = 3;
+constexpr std::int32_t kPointsThatStandOut = Level::kTrusted;  // a robust top rests on several points
 
 }  // namespace
 

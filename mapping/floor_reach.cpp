@@ -42,7 +42,6 @@ void FloorReach::grow(std::vector<MapTile*>& work, std::span<const VertexRef> se
   for (MapTile* tile : work)
     for (Vertex& vertex : tile->vertices) vertex.set(Vertex::kFloor, false);
   queue_.clear();
-  for (const VertexRef& seed : seeds) enter(seed, work, version);
   for (std::size_t i = 0, judged = work.size(); i < judged; ++i) {
     MapTile* const tile = work[i];
     for_each_vertex(*tile, [&](const VertexRef& from) {
@@ -53,6 +52,7 @@ void FloorReach::grow(std::vector<MapTile*>& work, std::span<const VertexRef> se
       }
     });
   }
+  for (const VertexRef& seed : seeds) enter(seed, work, version);
   spread(work, version);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mapping/frame_alignment.hpp"
 #include "runtime/geometry/settings.hpp"
 
 namespace floornav {
@@ -14,6 +15,7 @@ struct MappingSettings {
   double overhead_margin_m = 0.05;  ///< what hangs higher than the robot plus this does not block
   double max_range_m = 8.0;         ///< evidence farther from the robot is refused
   int no_return_frames = 3;         ///< frames of rays that found no floor, before its edge counts as a drop
+  AlignmentSettings alignment;      ///< of a frame with the map
 };
 
 template <class Visitor>
@@ -26,6 +28,7 @@ void visit_settings(Visitor& visit, MappingSettings& s) {
   visit("overhead_margin_m", s.overhead_margin_m, Allowed{0.0, 1.0});
   visit("max_range_m", s.max_range_m, Allowed{0.5, 20.0});
   visit("no_return_frames", s.no_return_frames, Allowed{1, 100});
+  visit("alignment", s.alignment);
 }
 
 }  // namespace floornav

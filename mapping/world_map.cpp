@@ -21,7 +21,8 @@ std::int32_t cells_along(double resolution_m, double pitch_m, const char* name) 
 }  // namespace
 
 WorldMap::WorldMap(const MappingSettings& settings, const RobotSettings& robot)
-    : memory_(settings, robot),
+    : alignment_(settings.alignment),
+      memory_(settings, robot),
       judge_(settings, robot),
       grid_(settings.resolution_m),
       terrain_(settings.terrain_resolution_m) {}
@@ -41,7 +42,8 @@ void WorldMap::take_lattice(double pitch_m) {
 WorldMemory::Taken WorldMap::integrate(const FloorEvidence& evidence) {
   take_lattice(evidence.lattice.pitch_m);
   if (!evidence.T_world_body.matrix().allFinite()) throw std::invalid_argument("pose that is not finite");
-  const WorldMemory::Taken taken = memory_.take(evidence, judge_.floor(), tiles_);
+  const HeightError error = find_height_error(evidence, tiles_, alignment_);
+  const WorldMemory::Taken taken = memory_.take(corrected(evidence, error), judge_.floor(), tiles_);
   if (evidence.utime_us >= utime_us_) T_world_body_ = evidence.T_world_body;
   utime_us_ = std::max(utime_us_, evidence.utime_us);
   return taken;

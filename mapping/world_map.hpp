@@ -30,9 +30,9 @@ class WorldMap {
  public:
   WorldMap(const MappingSettings& settings, const RobotSettings& robot);
 
-  /// Remembers a frame or a part of one; the maps follow with refresh() and refresh_terrain(). Throws
-  /// std::invalid_argument, and nothing changes, where the evidence's lattice does not divide the map's
-  /// resolutions or is not that of the evidence before.
+  /// Remembers a frame, aligned to what is remembered; the maps follow with refresh() and refresh_terrain().
+  /// Throws std::invalid_argument, and nothing changes, where the evidence's lattice does not divide the
+  /// map's resolutions or is not that of the evidence before.
   WorldMemory::Taken integrate(const FloorEvidence& evidence);
 
   /// Judges anew what was touched since the last refresh. Returns the tiles of the grid-map that changed,
@@ -54,6 +54,7 @@ class WorldMap {
  private:
   void take_lattice(double pitch_m);
 
+  AlignmentSettings alignment_;
   WorldMemory memory_;
   MapJudge judge_;
   MapTiles tiles_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -15,13 +16,33 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMaxWaiting = 256;  ///< parts of frames
-constexpr Micros kLastPartWait = 100ms;   ///< then the last part is taken for lost
+constexpr Micros kLastPartWait = 300ms;   ///< then the last part is taken for lost
 constexpr std::int64_t kTicksPerTerrain = 10;
 constexpr std::int64_t kTicksUntilStale = 10;
 constexpr double kMaxPosition_m = 1e6;
 
 double stopping_distance_m(const RobotSettings& robot) {
   return robot.radius_m + robot.max_speed_mps * robot.max_speed_mps / (2 * robot.max_acceleration_mps2);
+}
+
+/// Whether a part can be added to the others: it is of the same frame, and the surfels can still be numbered.
+bool belongs(const EvidencePart& part, const EvidenceSource& source, const FloorEvidence& frame) {
+  constexpr auto kMostSurfels = static_cast<std::size_t>(std::numeric_limits<std::int16_t>::max());
+  const EvidenceSource& other = part.source;
+  return other.frame == source.frame && other.cloud_session == source.cloud_session &&
+         other.cloud_source == source.cloud_source && part.evidence.utime_us == frame.utime_us &&
+         part.evidence.lattice.pitch_m == frame.lattice.pitch_m &&
+         frame.surfels.size() + part.evidence.surfels.size() <= kMostSurfels;
+}
+
+void append(FloorEvidence& frame, const FloorEvidence& part) {
+  const std::size_t before = frame.surfels.size();
+  frame.surfels.insert(frame.surfels.end(), part.surfels.begin(), part.surfels.end());
+  for (CellEvidence cell : part.cells) {
+    if (cell.surfel >= 0)
+      cell.surfel = static_cast<std::int16_t>(static_cast<std::size_t>(cell.surfel) + before);
+    frame.cells.push_back(cell);
+  }
 }
 
 }  // namespace
@@ -71,7 +92,6 @@ void MapperNode::start_epoch_if_jumped(Outbox& out) {
   if (!std::exchange(jumped_, false)) return;
   open_.reset();
   schedule_.clear();
-  changed_terrain_.clear();
   world_.start_epoch();
   publish_tiles({}, out);
 }
@@ -85,26 +105,27 @@ bool MapperNode::step(Micros now, Budget& /*budget*/, Outbox& out) {
     ++drops_["SURFELS from before a pose jump"];
     return !waiting_.empty();
   }
-  if (open_ && !open_->is_of(part.source)) finish_frame(out);
-  if (!open_) open_ = OpenFrame{part.source.cloud_source, part.source.cloud_session, part.source.frame, now};
-  integrate(part);
+  if (open_ && !belongs(part, open_->source, open_->evidence)) finish_frame(out);
+  if (open_) {
+    append(open_->evidence, part.evidence);
+  } else {
+    open_ = OpenFrame{part.source, part.evidence, now};
+  }
   if (part.part == part.parts - 1) finish_frame(out);
   return !waiting_.empty();
 }
 
-void MapperNode::integrate(const EvidencePart& part) {
+void MapperNode::finish_frame(Outbox& out) {
+  const OpenFrame frame = std::move(*std::exchange(open_, std::nullopt));
   try {
-    drops_["SURFELS cells impossible or out of range"] += world_.integrate(part.evidence).refused;
+    drops_["SURFELS cells impossible or out of range"] += world_.integrate(frame.evidence).refused;
     trouble_.clear();
     ticks_without_evidence_ = 0;
   } catch (const std::invalid_argument& error) {
     ++drops_["SURFELS of another lattice"];
     trouble_ = error.what();
+    return;
   }
-}
-
-void MapperNode::finish_frame(Outbox& out) {
-  open_.reset();
   const std::vector<CellIndex> changed = world_.refresh();
   const std::vector<CellIndex> close = tiles_within(world_.grid(), robot_m(), stopping_distance_m_);
   std::vector<CellIndex> tiles;

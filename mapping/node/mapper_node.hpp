@@ -23,7 +23,8 @@ namespace floornav {
 
 /// SURFELS, POSE and MAP_REQUEST in, GRID_MAP and TERRAIN_MAP out.
 ///
-/// After each frame the tiles that changed go out and those that the robot could reach before it stands;
+/// A frame is fused when its last part is there, or when the rest is taken for lost: the next frame begins,
+/// or 0.3 s pass. Then the tiles that changed go out, and those that the robot could reach before it stands;
 /// every tick (0.1 s) a share of the tiles within 20 m, so that all have come round in less than 2 s, and
 /// what was asked for. Once a second the terrain within 20 m. A tick's message comes even when nothing
 /// changed. The map depends on the evidence alone, never on when ticks fall.
@@ -39,24 +40,17 @@ class MapperNode final : public Node {
   void report(health_t& health) const override;
 
  private:
-  /// A frame of which parts have been integrated, but not the last one.
+  /// A frame of which not all parts have come yet.
   struct OpenFrame {
-    std::string cloud_source;
-    std::int64_t cloud_session = 0;
-    std::int64_t frame = 0;
+    EvidenceSource source;
+    FloorEvidence evidence;
     Micros begun{0};
-    friend bool operator==(const OpenFrame&, const OpenFrame&) = default;
-    [[nodiscard]] bool is_of(const EvidenceSource& source) const {
-      return cloud_source == source.cloud_source && cloud_session == source.cloud_session &&
-             frame == source.frame;
-    }
   };
 
   void accept_part(const surfels_t& message);
   void accept_pose(const pose_t& pose);
   void accept_request(const map_request_t& request);
   void start_epoch_if_jumped(Outbox& out);
-  void integrate(const EvidencePart& part);
   void finish_frame(Outbox& out);
   void publish_tiles(const std::vector<CellIndex>& tiles, Outbox& out);
   void publish_terrain(Outbox& out);
@@ -70,7 +64,6 @@ class MapperNode final : public Node {
   std::optional<OpenFrame> open_;
   std::optional<std::int64_t> newest_jump_us_;  ///< evidence from before it belongs to no map
   bool jumped_ = false;                         ///< and the epoch is still to be started
-  std::vector<CellIndex> changed_terrain_;
   std::int64_t ticks_ = 0;
   std::int64_t ticks_without_evidence_ = 0;
   std::string trouble_;  ///< with the last evidence; empty: it was taken

@@ -210,7 +210,7 @@ TEST(MapperNode, FrameWhoseLastPartWasLostStillCounts) {
   parts.pop_back();
   for (surfels_t& part : parts) rig.send(channel::kSurfels, part);
   EXPECT_TRUE(rig.take<grid_map_t>(channel::kGridMap).empty());
-  rig.tick(2);
+  rig.tick(4);
   GridMapReceiver receiver;
   apply_all(rig, receiver);
   EXPECT_EQ(receiver.map().state({5, 0}), VertexState::kFree);

@@ -1,0 +1,105 @@
+#include "mapping/frame_alignment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "mapping/evidence_reader.hpp"
+
+namespace floornav {
+namespace {
+
+constexpr std::size_t kLeastCommonCells = 50;
+constexpr double kShare = 0.9;
+constexpr float kLeastUpright = 0.87F;  // of a normal's z: 30 degrees
+
+/// A cell that frame and map both know as a plane.
+struct CommonCell {
+  Eigen::Vector2d place_m;  ///< from the body
+  double above_map_m;
+  double weight;  ///< 1 / variance of above_map_m
+};
+
+std::vector<CommonCell> common_cells(const FloorEvidence& frame, const MapTiles& map) {
+  constexpr double kFarthest_m = 0.2;
+  constexpr float kViewVar_m2 = 1e-5F;
+  const Eigen::Vector2d body_m = frame.T_world_body.translation().head<2>();
+  std::vector<CommonCell> common;
+  for (const CellEvidence& cell : frame.cells) {
+    if (cell.points < Level::kTrusted || cell.surfel < 0 || !EvidenceReader::is_valid(cell, frame)) continue;
+    if (std::abs(frame.surfels[static_cast<std::size_t>(cell.surfel)].normal.z()) < kLeastUpright) continue;
+    const CellMemory* const memory = map.find_cell(cell.cell);
+    const Surface* const surface = memory ? memory->decider() : nullptr;
+    if (surface == nullptr || surface->column) continue;
+    const double above_m = static_cast<double>(cell.mean_z_m - surface->z_m);
+    if (std::abs(above_m) > kFarthest_m) continue;
+    const Eigen::Vector2d place_m(frame.lattice.center_of(cell.cell.ix),
+                                  frame.lattice.center_of(cell.cell.iy));
+    common.push_back({place_m - body_m, above_m,
+                      1.0 / static_cast<double>(cell.var_z_m2 + surface->var_m2 + kViewVar_m2)});
+  }
+  return common;
+}
+
+/// Lift and rises by least squares, in which a cell whose rest is `scale_m` has a quarter of its weight.
+Eigen::Vector3d fit(const std::vector<CommonCell>& cells, const Eigen::Vector3d& before, double scale_m) {
+  const Eigen::Vector3d usual(0.02, 0.02, 0.02);  // m and m/m, 1 sigma of a pose's error
+  Eigen::Matrix3d normal = usual.cwiseAbs2().cwiseInverse().asDiagonal();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const CommonCell& cell : cells) {
+    const Eigen::Vector3d row(1, cell.place_m.x(), cell.place_m.y());
+    const double rest = (cell.above_map_m - row.dot(before)) / scale_m;
+    const double weight = cell.weight / ((1 + rest * rest) * (1 + rest * rest));
+    normal += weight * row * row.transpose();
+    right += weight * cell.above_map_m * row;
+  }
+  return normal.ldlt().solve(right);
+}
+
+double median_difference(std::vector<CommonCell>& cells) {
+  const auto middle = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 2);
+  std::nth_element(cells.begin(), middle, cells.end(),
+                   [](const CommonCell& a, const CommonCell& b) { return a.above_map_m < b.above_map_m; });
+  return middle->above_map_m;
+}
+
+}  // namespace
+
+HeightError find_height_error(const FloorEvidence& frame, const MapTiles& map,
+                              const AlignmentSettings& settings) {
+  HeightError error;
+  error.center_m = frame.T_world_body.translation().head<2>();
+  if (!settings.enabled) return error;
+  std::vector<CommonCell> cells = common_cells(frame, map);
+  if (cells.size() < kLeastCommonCells) return error;
+  Eigen::Vector3d found(median_difference(cells), 0, 0);
+  for (const double scale_m : {0.08, 0.04, 0.02, 0.02, 0.02}) found = fit(cells, found, scale_m);
+  const double max_rise = std::tan(settings.max_tilt_deg * std::numbers::pi / 180);
+  error.lift_m = kShare * std::clamp(found[0], -settings.max_lift_m, settings.max_lift_m);
+  const Eigen::Vector2d rise = found.tail<2>();
+  error.rise = kShare * rise * std::min(1.0, max_rise / std::max(rise.norm(), 1e-9));
+  return error;
+}
+
+FloorEvidence corrected(const FloorEvidence& frame, const HeightError& error) {
+  FloorEvidence result = frame;
+  for (CellEvidence& cell : result.cells) {
+    const auto too_high_m = static_cast<float>(
+        error.at(frame.lattice.center_of(cell.cell.ix), frame.lattice.center_of(cell.cell.iy)));
+    cell.mean_z_m -= too_high_m;
+    cell.top_z_m -= too_high_m;
+    cell.ray_z_m -= too_high_m;
+  }
+  for (Surfel& surfel : result.surfels) {
+    surfel.centroid_m.z() -= error.at(surfel.centroid_m.x(), surfel.centroid_m.y());
+    surfel.normal.head<2>() += surfel.normal.z() * error.rise.cast<float>();
+    surfel.normal.normalize();
+  }
+  return result;
+}
+
+}  // namespace floornav

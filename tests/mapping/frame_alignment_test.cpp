@@ -1,0 +1,141 @@
+#include "mapping/frame_alignment.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "mapping/world_map.hpp"
+#include "tests/mapping/made_evidence.hpp"
+
+namespace floornav {
+namespace {
+
+constexpr Area kBox{1.5, 2.0, -0.25, 0.25};
+
+/// `scene` as a frame shows it whose pose is off by a lift (m) and a tilt (m/m).
+Scene tilted(const Scene& scene, double lift_m, double rise_x, double rise_y) {
+  return [=](double x_m, double y_m) {
+    std::optional<Ground> ground = scene(x_m, y_m);
+    if (ground)
+      ground = Ground{ground->z_m + lift_m + rise_x * x_m + rise_y * y_m, ground->rise_x + rise_x,
+                      ground->rise_y + rise_y};
+    return ground;
+  };
+}
+
+std::vector<FloorEvidence> jittering_frames(unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> lift_m(0, 0.01);
+  std::normal_distribution<double> rise(0, 0.3 * 3.14159 / 180);
+  std::vector<FloorEvidence> frames;
+  for (int i = 0; i < 20; ++i) {
+    const double lift = lift_m(random);
+    const double rise_x = rise(random);
+    frames.push_back(see(tilted(with_block(flat(), kBox, 0.1), lift, rise_x, rise(random))));
+  }
+  return frames;
+}
+
+int count_free(const WorldMap& map, bool in_box) {
+  int free = 0;
+  for (std::int32_t iy = -20; iy < 20; ++iy)
+    for (std::int32_t ix = 0; ix < 80; ++ix)
+      if (inside((ix + 0.5) * 0.05, (iy + 0.5) * 0.05, kBox) == in_box &&
+          map.grid().state({ix, iy}) == VertexState::kFree)
+        ++free;
+  return free;
+}
+
+class Jitter : public testing::TestWithParam<unsigned> {};
+
+TEST_P(Jitter, OfACentimetreAndAThirdOfADegreeMakesNoFalseEdges) {
+  WorldMap map(MappingSettings{}, RobotSettings{});
+  for (const FloorEvidence& frame : jittering_frames(GetParam())) {
+    map.integrate(frame);
+    map.refresh();
+    EXPECT_EQ(count_free(map, false), 80 * 40 - 100);
+    EXPECT_EQ(count_free(map, true), 0);
+  }
+  const GridTile& tile = *map.grid().find({0, 0});
+  for (std::int32_t i = 1; i + 1 < 31; ++i)
+    EXPECT_EQ(tile.edges[static_cast<std::size_t>(10 * 32 + i)], 0xFF);
+}
+
+TEST_P(Jitter, LeavesALevelFloorNearTheMeanOfThePoses) {
+  WorldMap map(MappingSettings{}, RobotSettings{});
+  const auto frames = jittering_frames(GetParam());
+  for (const FloorEvidence& frame : frames) map.integrate(frame);
+  map.refresh();
+  const auto height = [&](std::int32_t ix, std::int32_t iy) {
+    return map.grid().find(GridMap::tile_of({ix, iy}))->height_m(GridTile::index_of({ix, iy}));
+  };
+  EXPECT_NEAR(height(5, 5), 0, 0.02);
+  for (std::int32_t ix = 1; ix < 79; ++ix) EXPECT_NEAR(height(ix, 10), height(ix - 1, 10), 0.0016) << ix;
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Jitter, testing::Range(1U, 9U));
+
+class KnownError : public testing::TestWithParam<unsigned> {};
+
+TEST_P(KnownError, IsFoundAlthoughThingsHaveChanged) {
+  std::mt19937 random(GetParam());
+  std::uniform_real_distribution<double> unit(-1, 1);
+  WorldMap map(MappingSettings{}, RobotSettings{});
+  map.integrate(see(flat()));
+  const double lift = 0.03 * unit(random);
+  const double rise_x = 0.02 * unit(random);
+  const double rise_y = 0.02 * unit(random);
+  MapTiles tiles;
+  tiles.set_cells_per_vertex(1);
+  WorldMemory memory(MappingSettings{}, RobotSettings{});
+  memory.take(see(flat()), FloorHeight(0.05), tiles);
+  const Scene changed = with_block(flat(), {1.0, 2.0, -1, 0}, 0.08);
+  const HeightError error =
+      find_height_error(see(tilted(changed, lift, rise_x, rise_y)), tiles, AlignmentSettings{});
+  EXPECT_NEAR(error.lift_m, 0.9 * lift, 0.002);
+  EXPECT_NEAR(error.rise.x(), 0.9 * rise_x, 0.002);
+  EXPECT_NEAR(error.rise.y(), 0.9 * rise_y, 0.002);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, KnownError, testing::Range(1U, 9U));
+
+TEST(FrameAlignment, TakesOutExactlyTheErrorThatItIsGiven) {
+  HeightError error;
+  error.center_m = Eigen::Vector2d(1, -1);
+  error.lift_m = 0.02;
+  error.rise = Eigen::Vector2d(0.03, -0.01);
+  const Scene wrong = tilted(flat(), 0.02 - 0.03 * 1 - 0.01 * 1, 0.03, -0.01);
+  FloorEvidence frame = see(wrong);
+  for (CellEvidence& cell : frame.cells) cell.ray_z_m = cell.mean_z_m + 0.5F;
+  const FloorEvidence right = corrected(frame, error);
+  for (std::size_t i = 0; i < right.cells.size(); ++i) {
+    EXPECT_NEAR(right.cells[i].mean_z_m, 0, 1e-6);
+    EXPECT_NEAR(right.cells[i].ray_z_m, 0.5, 1e-6);
+    EXPECT_NEAR(right.surfels[i].normal.z(), 1, 1e-6);
+    EXPECT_NEAR(right.surfels[i].centroid_m.z(), 0, 1e-6);
+  }
+}
+
+TEST(FrameAlignment, IsClampedAndCanBeSwitchedOff) {
+  MapTiles tiles;
+  tiles.set_cells_per_vertex(1);
+  WorldMemory memory(MappingSettings{}, RobotSettings{});
+  memory.take(see(flat()), FloorHeight(0.05), tiles);
+  AlignmentSettings settings;
+  settings.max_lift_m = 0.01;
+  EXPECT_DOUBLE_EQ(find_height_error(see(flat(0.04)), tiles, settings).lift_m, 0.9 * 0.01);
+  settings.enabled = false;
+  EXPECT_EQ(find_height_error(see(flat(0.04)), tiles, settings).lift_m, 0);
+}
+
+TEST(FrameAlignment, TooLittleInCommonIsNotCorrected) {
+  MapTiles tiles;
+  tiles.set_cells_per_vertex(1);
+  WorldMemory memory(MappingSettings{}, RobotSettings{});
+  memory.take(see(flat(), {0, 0.3, 0, 0.3}), FloorHeight(0.05), tiles);
+  EXPECT_EQ(find_height_error(see(flat(0.02)), tiles, AlignmentSettings{}).lift_m, 0);
+}
+
+}  // namespace
+}  // namespace floornav
