@@ -89,12 +89,21 @@ void LiveExecutor::listen(const std::stop_token& stop) {
   }
 }
 
-/// One turn of the worker: what came, the ticks that are due, one step.
+/// One turn of the worker: what came, the ticks that are due, one step. In log time one message has its turn
+/// when the node is done with the one before, as in a replay.
 void LiveExecutor::turn() {
-  const std::vector<Mail> mail = mailbox_.take(next_wake(std::chrono::steady_clock::now()));
-  for (const Mail& message : mail) hand_over(message);
+  if (mail_.empty()) {
+    for (Mail& mail : mailbox_.take(next_wake(std::chrono::steady_clock::now())))
+      mail_.push_back(std::move(mail));
+  }
+  const bool idle = mail_.empty();
+  std::size_t turns = options_.log_time ? (resting_ ? 1 : 0) : mail_.size();
+  for (; turns > 0 && !mail_.empty(); --turns) {
+    hand_over(mail_.front());
+    mail_.pop_front();
+  }
   const Instant now = std::chrono::steady_clock::now();
-  if (options_.log_time) run_on(now, mail.empty());
+  if (options_.log_time) run_on(now, idle);
   fire_ticks(now);
   step();
   tell_health(std::chrono::steady_clock::now());

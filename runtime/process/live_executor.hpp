@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -69,6 +70,7 @@ class LiveExecutor {
   Inbox inbox_;
   Outbox out_;
   Mailbox mailbox_;
+  std::deque<Mail> mail_;  ///< taken, not yet handed over
   RivalWatch rivals_;
   FaultLog faults_;
   std::unique_ptr<Budget> budget_;

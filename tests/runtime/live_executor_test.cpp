@@ -214,8 +214,8 @@ TEST_F(Live, FollowsTheTimeOfALog) {
       hub_.publish(encoded("IN", goal_of(1, seq, seq)));  // utime = 1000 us x seq
     ASSERT_TRUE(answers.wait_for([](const goal_t& g) { return g.id == 5; }));
   }
-  std::vector<std::string> begin(node.diary.begin(), node.diary.begin() + 2);
-  EXPECT_THAT(begin, testing::ElementsAre("accept 1 @1000", "tick @1100"));
+  std::vector<std::string> begin(node.diary.begin(), node.diary.begin() + 3);
+  EXPECT_THAT(begin, testing::ElementsAre("accept 1 @1000", "step 1 @1000", "tick @1100"));
   const auto fifth = std::find(node.diary.begin(), node.diary.end(), "accept 5 @5000");
   ASSERT_NE(fifth, node.diary.end());
   EXPECT_EQ(std::count_if(node.diary.begin(), fifth, [](const std::string& s) { return s[0] == 't'; }), 40);
