@@ -1,6 +1,7 @@
 #include <atomic>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -63,8 +64,13 @@ void add_depth_scale(CLI::App& command, double& counts_per_m) {
       ->type_name("S");
 }
 
-ImportReport run(const CommonOptions& options,
-                 const std::function<ImportReport(const ImportTarget&)>& import) {
+void tell(const ImportReport& report, const CommonOptions& options) {
+  for (const auto& note : report.notes) fmt::print("{}\n", note);
+  fmt::print("{}: {} clouds and {} poses of {:.1f} s\n", options.log, report.clouds, report.poses,
+             static_cast<double>(report.span_us) / 1e6);
+}
+
+void run(const CommonOptions& options, const std::function<ImportReport(const ImportTarget&)>& import) {
   const std::atomic<bool>& stop_asked = stop_on_signals();
   Progress progress("frames");
   const ImportTarget target{options.log, imported_sensor(options.sensor),
@@ -72,13 +78,7 @@ ImportReport run(const CommonOptions& options,
                               if (stop_asked) throw std::runtime_error("interrupted, nothing written");
                               progress.at(done, total);
                             }};
-  return import(target);
-}
-
-void tell(const ImportReport& report, const CommonOptions& options) {
-  for (const auto& note : report.notes) fmt::print("{}\n", note);
-  fmt::print("{}: {} clouds and {} poses of {:.1f} s\n", options.log, report.clouds, report.poses,
-             static_cast<double>(report.span_us) / 1e6);
+  tell(import(target), options);
 }
 
 constexpr const char* kTumExample = R"(
@@ -91,6 +91,7 @@ Example:
 constexpr const char* kDepthExample = R"(
 Nothing is known of where the robot was, so each frame makes a map of its own: frame k stands at
 x = spacing (k mod 10), y = -spacing (k div 10) in the local frame, 0.1 s after the one before.
+floornav-replay --frame-pictures draws every frame beside its map.
 
 Example:
   floornav-import depth pepper/depth -o pepper.lcm --intrinsics 381.4,381.4,321.7,236.9 --depth-scale 1000 \
@@ -104,6 +105,47 @@ is refused. Frames are placed as by "depth".
 Example:
   floornav-import pcd five_people.pcd office1.pcd -o pcl.lcm --height 1.29 --pitch 4.7 --roll 0)";
 
+void add_tum(CLI::App& app, CommonOptions& common, TumImport& what) {
+  CLI::App& command = *app.add_subcommand("tum", "A TUM RGB-D folder: depth.txt and groundtruth.txt");
+  command.add_option("DIR", what.folder, "The folder")->required();
+  add_common(command, common, true);
+  add_depth_scale(command, what.counts_per_m);
+  command.add_option("--floor-z", what.floor_z_m, "Height of the floor in the ground truth's world, m")
+      ->check(CLI::Range(-100.0, 100.0))
+      ->capture_default_str()
+      ->type_name("Z");
+  command.footer(kTumExample);
+  command.callback([&] {
+    what.camera = parse_intrinsics(common.intrinsics);
+    run(common, [&](const ImportTarget& target) { return import_tum(what, target); });
+  });
+}
+
+void add_depth(CLI::App& app, CommonOptions& common, DepthImport& what) {
+  CLI::App& command = *app.add_subcommand("depth", "Folders of 16-bit depth images without poses");
+  command.add_option("DIR", what.folders, "The folders; their images are taken by name")->required();
+  add_common(command, common, true);
+  add_depth_scale(command, what.counts_per_m);
+  add_mounting(command, what.mounting);
+  command.footer(kDepthExample);
+  command.callback([&] {
+    what.camera = parse_intrinsics(common.intrinsics);
+    run(common, [&](const ImportTarget& target) { return import_depth(what, target); });
+  });
+}
+
+void add_pcd(CLI::App& app, CommonOptions& common, PcdImport& what) {
+  CLI::App& command = *app.add_subcommand("pcd", "Organised .pcd clouds without poses");
+  command.add_option("FILE", what.files, "The clouds, in this order")->required();
+  add_common(command, common, false);
+  add_mounting(command, what.mounting);
+  command.footer(kPcdExample);
+  command.callback([&] {
+    if (!common.intrinsics.empty()) what.camera = parse_intrinsics(common.intrinsics);
+    run(common, [&](const ImportTarget& target) { return import_pcd(what, target); });
+  });
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app("Makes an LCM log of depth clouds and poses from recordings in other forms");
   app.name("floornav-import");
@@ -112,52 +154,18 @@ int run_program(int argc, char** argv) {
     return fmt::format("floornav-import: {} (see --help)\n", error.what());
   });
   app.footer("Sub-commands have their own --help with examples.");
-  CommonOptions options;
-
+  CommonOptions common;
   TumImport tum;
-  CLI::App& tum_command = *app.add_subcommand("tum", "A TUM RGB-D folder: depth.txt and groundtruth.txt");
-  tum_command.add_option("DIR", tum.folder, "The folder")->required();
-  add_common(tum_command, options, true);
-  add_depth_scale(tum_command, tum.counts_per_m);
-  tum_command.add_option("--floor-z", tum.floor_z_m, "Height of the floor in the ground truth's world, m")
-      ->check(CLI::Range(-100.0, 100.0))
-      ->capture_default_str()
-      ->type_name("Z");
-  tum_command.footer(kTumExample);
-
   DepthImport depth;
-  CLI::App& depth_command = *app.add_subcommand("depth", "Folders of 16-bit depth images without poses");
-  depth_command.add_option("DIR", depth.folders, "The folders; their images are taken by name")->required();
-  add_common(depth_command, options, true);
-  add_depth_scale(depth_command, depth.counts_per_m);
-  add_mounting(depth_command, depth.mounting);
-  depth_command.footer(kDepthExample);
-
   PcdImport pcd;
-  CLI::App& pcd_command = *app.add_subcommand("pcd", "Organised .pcd clouds without poses");
-  pcd_command.add_option("FILE", pcd.files, "The clouds, in this order")->required();
-  add_common(pcd_command, options, false);
-  add_mounting(pcd_command, pcd.mounting);
-  pcd_command.footer(kPcdExample);
-
+  add_tum(app, common, tum);
+  add_depth(app, common, depth);
+  add_pcd(app, common, pcd);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
   }
-
-  ImportReport report;
-  if (tum_command) {
-    tum.camera = parse_intrinsics(options.intrinsics);
-    report = run(options, [&](const ImportTarget& target) { return import_tum(tum, target); });
-  } else if (depth_command) {
-    depth.camera = parse_intrinsics(options.intrinsics);
-    report = run(options, [&](const ImportTarget& target) { return import_depth(depth, target); });
-  } else {
-    if (!options.intrinsics.empty()) pcd.camera = parse_intrinsics(options.intrinsics);
-    report = run(options, [&](const ImportTarget& target) { return import_pcd(pcd, target); });
-  }
-  tell(report, options);
   return 0;
 }
 
