@@ -33,6 +33,7 @@ FloorPerception::FloorPerception(const PerceptionSettings& settings, const Robot
       robot_(robot),
       grid_(settings.roi, settings.sections),
       clipper_(settings.roi, grid_),
+      outlier_remover_(settings.outliers),
       plane_finder_(settings.planes, robot),
       cell_sorter_(settings.roi),
       tracer_(settings.roi, settings.cells, grid_),
@@ -55,7 +56,8 @@ FloorEvidence FloorPerception::process(const DepthFrame& frame, const Pose& T_wo
   label_.assign(cloud_.size(), kOutlier);
   for (int row = 0; row < grid_.x_res(); ++row) {
     const std::vector<int> sections = admit_row(row, admit);
-    for (const int section : sections) remove_section_outliers(section, parallel, evidence.pixels);
+    for (const int section : sections)
+      remove_section_outliers(section, frame.camera, parallel, evidence.pixels);
     parallel.run(static_cast<int>(sections.size()), [&](int index, int worker) {
       find_section_planes(sections[static_cast<std::size_t>(index)], frame.utime_us, view,
                           section_scratch_[static_cast<std::size_t>(worker)]);
@@ -79,13 +81,14 @@ std::vector<int> FloorPerception::admit_row(int row, const Admission& admit) {
   return admitted;
 }
 
-void FloorPerception::remove_section_outliers(int section, Parallel& parallel, PixelCounts& counts) {
+void FloorPerception::remove_section_outliers(int section, const Pinhole& camera, Parallel& parallel,
+                                              PixelCounts& counts) {
   const auto begin = static_cast<std::size_t>(cloud_.section_begin(section));
   const auto size = static_cast<std::size_t>(cloud_.section_size(section));
-  const auto part = [&](const std::vector<float>& values) { return std::span(values).subspan(begin, size); };
+  const auto part = [&](const auto& values) { return std::span(values).subspan(begin, size); };
   const std::span<std::uint8_t> keep = std::span(keep_).subspan(begin, size);
-  counts.outliers += remove_outliers({part(cloud_.x), part(cloud_.y), part(cloud_.z)}, settings_.outliers,
-                                     parallel, mean_m_, keep);
+  const ImagePoints points{{part(cloud_.x), part(cloud_.y), part(cloud_.z)}, part(cloud_.pixel), camera};
+  counts.outliers += outlier_remover_.remove(points, parallel, keep);
   for (std::size_t i = 0; i < size; ++i)
     if (keep[i]) label_[begin + i] = kNoPlane;
 }

@@ -44,7 +44,7 @@ class FloorPerception {
   };
 
   std::vector<int> admit_row(int row, const Admission& admit);
-  void remove_section_outliers(int section, Parallel& parallel, PixelCounts& counts);
+  void remove_section_outliers(int section, const Pinhole& camera, Parallel& parallel, PixelCounts& counts);
   void find_section_planes(int section, std::int64_t utime_us, const SensorView& view,
                            SectionScratch& scratch);
   void collect_surfels(const SensorView& view, FloorEvidence& evidence);
@@ -56,6 +56,7 @@ class FloorPerception {
   RobotSettings robot_;
   SectionGrid grid_;
   RoiClipper clipper_;
+  OutlierRemover outlier_remover_;
   SectionPlaneFinder plane_finder_;
   CellSorter cell_sorter_;
   SightLineTracer tracer_;
@@ -63,7 +64,6 @@ class FloorPerception {
 
   // Of the frame in hand; kept so that a frame allocates little.
   RoiCloud cloud_;
-  std::vector<float> mean_m_;
   std::vector<std::uint8_t> keep_;
   std::vector<std::int16_t> label_;
   std::vector<SectionResult> results_;

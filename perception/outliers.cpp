@@ -4,30 +4,44 @@
 
 namespace floornav {
 
-std::int64_t remove_outliers(const PointsView& points, const OutlierSettings& settings, Parallel& parallel,
-                             std::vector<float>& mean_m, std::span<std::uint8_t> keep) {
-  if (points.size() == 0) return 0;
-  mean_m.resize(points.size());
-  mean_neighbor_distances(points, settings.neighbors, parallel, mean_m);
+namespace {
 
-  const auto count = static_cast<double>(points.size());
+/// Fewer points than this are found faster in a tree than the image is filled.
+constexpr std::size_t kFewPoints = 64;
+
+}  // namespace
+
+std::int64_t OutlierRemover::remove(const ImagePoints& cloud, Parallel& parallel,
+                                    std::span<std::uint8_t> keep) {
+  if (cloud.points.size() == 0) return 0;
+  find_mean_distances(cloud, parallel);
+
+  const auto count = static_cast<double>(cloud.points.size());
   double sum = 0.0;
-  for (const float mean : mean_m) sum += static_cast<double>(mean);
+  for (const float mean : mean_m_) sum += static_cast<double>(mean);
   const double mu_global = sum / count;
   double squares = 0.0;
-  for (const float mean : mean_m) {
+  for (const float mean : mean_m_) {
     const double difference = static_cast<double>(mean) - mu_global;
     squares += difference * difference;
   }
-  const double limit = settings.epsilon * std::sqrt(squares / count);
+  const double limit = settings_.epsilon * std::sqrt(squares / count);
 
   std::int64_t outliers = 0;
-  for (std::size_t i = 0; i < mean_m.size(); ++i) {
-    const bool outlier = std::abs(static_cast<double>(mean_m[i]) - mu_global) > limit;
+  for (std::size_t i = 0; i < mean_m_.size(); ++i) {
+    const bool outlier = std::abs(static_cast<double>(mean_m_[i]) - mu_global) > limit;
     keep[i] = outlier ? 0 : 1;
     outliers += outlier ? 1 : 0;
   }
   return outliers;
+}
+
+void OutlierRemover::find_mean_distances(const ImagePoints& cloud, Parallel& parallel) {
+  mean_m_.resize(cloud.points.size());
+  const bool by_window =
+      settings_.search == "window" || (settings_.search == "auto" && cloud.points.size() >= kFewPoints);
+  if (by_window && window_.mean_distances(cloud, settings_.neighbors, parallel, mean_m_)) return;
+  mean_neighbor_distances(cloud.points, settings_.neighbors, parallel, mean_m_);
 }
 
 }  // namespace floornav

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "runtime/geometry/settings.hpp"
 
 namespace floornav {
@@ -28,6 +30,9 @@ struct SectionSettings {
 struct OutlierSettings {
   int neighbors = 8;     ///< K
   double epsilon = 3.0;  ///< of eq. (6), in standard deviations
+  /// How the neighbours are found, with the same result: by nanoflann's kd-tree, in a window of the image, or
+  /// the window where it is the faster one.
+  std::string search = "auto";
 };
 
 /// Recursive RANSAC (sections 4.5 and 4.6.1).
@@ -80,6 +85,7 @@ template <class Visitor>
 void visit_settings(Visitor& visit, OutlierSettings& s) {
   visit("neighbors", s.neighbors, Allowed{1, 64});
   visit("epsilon", s.epsilon, Allowed{0.1, 100.0});
+  visit("search", s.search, {"nanoflann", "window", "auto"});
 }
 
 template <class Visitor>

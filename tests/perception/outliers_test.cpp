@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -51,9 +52,11 @@ std::vector<std::uint8_t> brute_force_keep(const Points& p, int neighbors, doubl
 std::vector<std::uint8_t> keep_of(const Points& p, int neighbors, double epsilon,
                                   std::int64_t* outliers = nullptr) {
   std::vector<std::uint8_t> keep(p.x.size(), 7);
-  std::vector<float> mean;
+  std::vector<std::int32_t> pixel(p.x.size());  // not those of the points: the kd-tree must take them
+  std::iota(pixel.begin(), pixel.end(), 0);
   Serial serial;
-  const std::int64_t removed = remove_outliers(p.view(), {neighbors, epsilon}, serial, mean, keep);
+  OutlierRemover remover({neighbors, epsilon, "auto"});
+  const std::int64_t removed = remover.remove({p.view(), pixel, Pinhole{}}, serial, keep);
   if (outliers != nullptr) *outliers = removed;
   return keep;
 }

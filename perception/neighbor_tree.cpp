@@ -1,4 +1,4 @@
-#include "perception/neighbor_search.hpp"
+#include "perception/neighbor_tree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,6 @@ namespace floornav {
 
 namespace {
 
-constexpr std::size_t kMaxNeighbors = 64;
 constexpr std::size_t kLeafSize = 16;
 constexpr int kPointsPerPiece = 2048;
 
@@ -59,10 +58,30 @@ class NearestDistances {
   }
 
  private:
-  std::array<float, kMaxNeighbors + 1> squared_;
+  std::array<float, static_cast<std::size_t>(kMaxNeighbors) + 1> squared_;
   std::size_t capacity_;
   std::size_t count_ = 0;
 };
+
+/// Searches for `count` points; the number of the i-th is point(i).
+template <class Point>
+void search_tree(const PointsView& points, int neighbors, int count, Point point, Parallel& parallel,
+                 std::span<float> mean_m) {
+  const std::size_t others =
+      std::min(static_cast<std::size_t>(std::min(neighbors, kMaxNeighbors)), points.size() - 1);
+  const TreePoints tree_points{points};
+  const Tree tree(3, tree_points, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
+  parallel.run((count + kPointsPerPiece - 1) / kPointsPerPiece, [&](int piece, int) {
+    const int end = std::min(count, (piece + 1) * kPointsPerPiece);
+    for (int i = piece * kPointsPerPiece; i < end; ++i) {
+      const std::size_t index = point(static_cast<std::size_t>(i));
+      const std::array<float, 3> query{points.x[index], points.y[index], points.z[index]};
+      NearestDistances nearest(others + 1);
+      tree.findNeighbors(nearest, query.data(), nanoflann::SearchParams());
+      mean_m[index] = nearest.mean_of_others();
+    }
+  });
+}
 
 }  // namespace
 
@@ -72,21 +91,16 @@ void mean_neighbor_distances(const PointsView& points, int neighbors, Parallel& 
     std::fill(mean_m.begin(), mean_m.end(), 0.0F);
     return;
   }
-  const std::size_t others =
-      std::min({static_cast<std::size_t>(neighbors), points.size() - 1, kMaxNeighbors});
-  const TreePoints tree_points{points};
-  const Tree tree(3, tree_points, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
-  const int count = static_cast<int>(points.size());
-  parallel.run((count + kPointsPerPiece - 1) / kPointsPerPiece, [&](int piece, int) {
-    const int end = std::min(count, (piece + 1) * kPointsPerPiece);
-    for (int i = piece * kPointsPerPiece; i < end; ++i) {
-      const auto index = static_cast<std::size_t>(i);
-      const std::array<float, 3> query{points.x[index], points.y[index], points.z[index]};
-      NearestDistances nearest(others + 1);
-      tree.findNeighbors(nearest, query.data(), nanoflann::SearchParams());
-      mean_m[index] = nearest.mean_of_others();
-    }
-  });
+  search_tree(
+      points, neighbors, static_cast<int>(points.size()), [](std::size_t i) { return i; }, parallel, mean_m);
+}
+
+void mean_neighbor_distances(const PointsView& points, int neighbors, std::span<const std::int32_t> wanted,
+                             Parallel& parallel, std::span<float> mean_m) {
+  if (wanted.empty()) return;
+  search_tree(
+      points, neighbors, static_cast<int>(wanted.size()),
+      [&](std::size_t i) { return static_cast<std::size_t>(wanted[i]); }, parallel, mean_m);
 }
 
 }  // namespace floornav
