@@ -12,11 +12,14 @@ namespace floornav {
 namespace {
 
 struct Points {
+  Pinhole camera;
   std::vector<float> x, y, z;
-  void add(float px, float py, float pz) {
-    x.push_back(px);
-    y.push_back(py);
-    z.push_back(pz);
+  std::vector<std::int32_t> pixel;
+  void add(int u, int v, const Eigen::Vector3f& p) {
+    x.push_back(p.x());
+    y.push_back(p.y());
+    z.push_back(p.z());
+    pixel.push_back(v * camera.width + u);
   }
 };
 
@@ -28,13 +31,13 @@ constexpr Window kWindows[] = {{280, 200}, {100, 380}, {500, 300}};
 
 Points crop(const DepthImage& image, float metres_a_count, float focal_px, Window window) {
   Points points;
+  points.camera.fx = points.camera.fy = focal_px;
   for (int v = window.top; v < window.top + kSide_px; ++v)
     for (int u = window.left; u < window.left + kSide_px; ++u) {
       const std::uint16_t count = image.pixels[static_cast<std::size_t>(v * image.width + u)];
       const float z = metres_a_count * static_cast<float>(count);
       if (count == 0 || count == 65535) continue;
-      points.add((static_cast<float>(u) - 319.5F) / focal_px * z,
-                 (static_cast<float>(v) - 239.5F) / focal_px * z, z);
+      points.add(u, v, z * points.camera.ray(static_cast<float>(u), static_cast<float>(v)));
     }
   return points;
 }
@@ -44,7 +47,7 @@ Points crop(const OrganisedCloud& cloud, Window window) {
   for (int v = window.top; v < window.top + kSide_px; ++v)
     for (int u = window.left; u < window.left + kSide_px; ++u) {
       const Eigen::Vector3f& p = cloud.points[static_cast<std::size_t>(v * cloud.width + u)];
-      if (p.allFinite()) points.add(p.x(), p.y(), p.z());
+      if (p.allFinite()) points.add(u, v, p);
     }
   return points;
 }
@@ -82,10 +85,13 @@ std::int64_t compare_with_oracle(const Points& points) {
   Serial serial;
   std::int64_t outliers = 0;
   for (const int neighbors : {8, 20}) {
-    std::vector<std::uint8_t> keep(points.x.size());
-    std::vector<float> mean;
-    outliers += remove_outliers({points.x, points.y, points.z}, {neighbors, 2.0}, serial, mean, keep);
-    EXPECT_EQ(keep, brute_force_keep(points, static_cast<std::size_t>(neighbors), 2.0));
+    const auto expected = brute_force_keep(points, static_cast<std::size_t>(neighbors), 2.0);
+    for (const char* search : {"nanoflann", "window", "auto"}) {
+      std::vector<std::uint8_t> keep(points.x.size());
+      OutlierRemover remover({neighbors, 2.0, search});
+      outliers += remover.remove({{points.x, points.y, points.z}, points.pixel, points.camera}, serial, keep);
+      EXPECT_EQ(keep, expected) << search;
+    }
   }
   return outliers;
 }
