@@ -11,6 +11,7 @@
 
 #include "runtime/process/lcm_transport.hpp"
 #include "runtime/process/live_executor.hpp"
+#include "runtime/process/recording_transport.hpp"
 #include "runtime/process/stop_signals.hpp"
 
 namespace floornav {
@@ -40,6 +41,8 @@ std::optional<int> parse_options(int argc, const char* const* argv, const Daemon
   app.add_option("--lcm-url", options.lcm_url,
                  fmt::format("LCM bus; default: LCM_DEFAULT_URL, else {}", kDefaultLcmUrl))
       ->type_name("URL");
+  app.add_option("--record", options.record, "write what this program publishes to an LCM log too")
+      ->type_name("LOG");
   app.add_flag("--replay", options.log_time, "take the time from the messages: a log is played on this bus");
   app.add_flag("--print-config", options.print_config, "print the settings in force as YAML and end");
   if (parallel) {
@@ -48,6 +51,7 @@ std::optional<int> parse_options(int argc, const char* const* argv, const Daemon
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
   }
+  info.add_options(app);
   try {
     app.parse(argc, argv);
     if (options.config.empty() && !options.print_config)
@@ -66,7 +70,11 @@ std::optional<int> parse_options(int argc, const char* const* argv, const Daemon
 void run_on_bus(const DaemonInfo& info, const DaemonOptions& options, Node& node, std::int64_t config_hash) {
   std::signal(SIGPIPE, SIG_IGN);  // a broken connection is an error code, not the end
   const std::string url = lcm_url(options.lcm_url);
-  LcmTransport transport(url);
+  LcmTransport lcm(url);
+  std::optional<RecordingTransport> recording;
+  if (!options.record.empty())
+    recording.emplace(lcm, options.record, [&](const std::string& line) { say(info, line); });
+  Transport& transport = recording ? static_cast<Transport&>(*recording) : lcm;
   if (const auto warning = receive_buffer_warning(url)) say(info, *warning);
   LiveExecutor executor(node, transport,
                         {.log_time = options.log_time,

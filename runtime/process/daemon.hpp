@@ -12,18 +12,25 @@
 #include "runtime/process/settings_writer.hpp"
 #include "runtime/process/thread_pool.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace floornav {
 
 /// What `--help` tells of a daemon.
 struct DaemonInfo {
   std::string name;   ///< of the program, e.g. "floornav-perception"
   std::string about;  ///< what it does, with its channels
+  /// Adds the program's own options.
+  std::function<void(CLI::App&)> add_options = [](CLI::App&) {};
 };
 
 /// The command line of every daemon.
 struct DaemonOptions {
   std::string config;
   std::string lcm_url;
+  std::string record;  ///< log of what the daemon publishes
   bool log_time = false;
   bool print_config = false;
   int threads = 1;
