@@ -24,10 +24,11 @@ function(floornav_program name)
   target_link_libraries(floornav-${name} PRIVATE floornav_options ${ARG_LINK})
 endfunction()
 
-# floornav_test(NAME SOURCES ... LINK ...): a GoogleTest program of which every test is a CTest test.
+# floornav_test(NAME SOURCES ... LINK ... [LABEL slow]): a GoogleTest program of which every test is a CTest test.
 function(floornav_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LINK" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE floornav_options ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST
+    PROPERTIES TIMEOUT 300 LABELS "${ARG_LABEL}")
 endfunction()

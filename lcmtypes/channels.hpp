@@ -4,6 +4,7 @@
 namespace floornav::channel {
 
 inline constexpr const char* kKinectCloud = "KINECT_CLOUD";        ///< depth_cloud_t
+inline constexpr const char* kKinectImage = "KINECT_IMAGE";        ///< image_t
 inline constexpr const char* kBumblebeeCloud = "BUMBLEBEE_CLOUD";  ///< depth_cloud_t
 inline constexpr const char* kPose = "POSE";                       ///< pose_t
 inline constexpr const char* kLocalToGlobal = "LOCAL_TO_GLOBAL";   ///< rigid_transform_t

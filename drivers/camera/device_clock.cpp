@@ -41,7 +41,15 @@ std::int64_t DeviceClock::utime_of(std::uint64_t stamp, HostTime arrival) {
     start(stamp, arrival);
   }
   const std::int64_t exposure_us = device_us_ + std::llround(offset_us_) - shortest_way_us_;
-  return exposure_us + (arrival.utime_us - arrival.monotonic_us);
+  return last_utime_us_ = exposure_us + (arrival.utime_us - arrival.monotonic_us);
+}
+
+std::int64_t DeviceClock::utime_near_last(std::uint64_t stamp) const {
+  const int per_us = std::max(1, stamps_per_us_);
+  const auto ahead = static_cast<std::int64_t>(stamp_difference(stamp, last_stamp_));
+  const auto behind = static_cast<std::int64_t>(stamp_difference(last_stamp_, stamp));
+  const bool later = ahead >= 0 && (behind < 0 || ahead <= behind);
+  return last_utime_us_ + (later ? ahead : -behind) / per_us;
 }
 
 void DeviceClock::start(std::uint64_t stamp, HostTime arrival) {

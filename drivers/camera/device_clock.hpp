@@ -26,6 +26,9 @@ class DeviceClock {
   /// utime of the middle of the exposure of a frame stamped `stamp` that has arrived now.
   std::int64_t utime_of(std::uint64_t stamp, HostTime arrival);
 
+  /// utime of something else that the camera stamped within a second of the last frame.
+  [[nodiscard]] std::int64_t utime_near_last(std::uint64_t stamp) const;
+
   /// Of the last frame on the camera's clock, us since the first one; goes on over gaps, but not over
   /// restarts().
   [[nodiscard]] std::int64_t device_us() const { return device_us_; }
@@ -48,6 +51,7 @@ class DeviceClock {
   double offset_us_ = 0;        ///< the one in use: follows the least one smoothly
   int late_frames_ = 0;         ///< in a row, all later than the offset explains
   std::int64_t restarts_ = 0;
+  std::int64_t last_utime_us_ = 0;
 };
 
 }  // namespace floornav

@@ -37,6 +37,8 @@ struct KinectSettings {
   int depth_unit_um = 1000;   ///< of a depth count: 1000, or 100 (to 6.5 m) where the device offers it
   bool registration = false;  ///< depth as the colour camera would see it
   bool color = false;         ///< publish colour images too
+  std::string color_channel = "KINECT_IMAGE";
+  int jpeg_quality = 85;      ///< of colour images, 1 to 100
   std::string calibration;    ///< YAML file of the depth camera; empty: from the device's field of view
   double baseline_m = 0.075;  ///< projector to camera
   double depth_sigma_at_3m_m = 0.014;    ///< eq. (3)
@@ -60,6 +62,8 @@ void visit_settings(Visitor& visit, KinectSettings& s) {
   visit("depth_unit_um", s.depth_unit_um, Allowed{100, 1000});
   visit("registration", s.registration);
   visit("color", s.color);
+  visit("color_channel", s.color_channel);
+  visit("jpeg_quality", s.jpeg_quality, Allowed{1, 100});
   visit("calibration", s.calibration);
   visit("baseline_m", s.baseline_m, Allowed{0.001, 1.0});
   visit("depth_sigma_at_3m_m", s.depth_sigma_at_3m_m, Allowed{0.0001, 1.0});

@@ -330,6 +330,31 @@ terrain_map_t sample_message(std::uint32_t seed) {
   return m;
 }
 
+template <>
+image_metadata_t sample_message(std::uint32_t seed) {
+  Values v(seed);
+  image_metadata_t m;
+  m.key = v.text();
+  m.n = v.whole(1, 8);
+  v.fill(m.value, m.n);
+  return m;
+}
+
+template <>
+image_t sample_message(std::uint32_t seed) {
+  Values v(seed);
+  image_t m;
+  m.utime = v.whole(0, 1000);
+  m.width = 8;
+  m.height = 6;
+  m.row_stride = 0;
+  m.pixelformat = image_t::PIXEL_FORMAT_MJPEG;
+  m.size = v.whole(1, 50);
+  v.fill(m.data, m.size);
+  v.messages(m.nmetadata, m.metadata);
+  return m;
+}
+
 namespace {
 
 template <class Message>

@@ -12,6 +12,8 @@
 #include "floornav/grid_map_t.hpp"
 #include "floornav/grid_tile_t.hpp"
 #include "floornav/health_t.hpp"
+#include "floornav/image_metadata_t.hpp"
+#include "floornav/image_t.hpp"
 #include "floornav/latency_t.hpp"
 #include "floornav/map_request_t.hpp"
 #include "floornav/path_point_t.hpp"
@@ -29,9 +31,10 @@
 namespace floornav {
 
 /// Every type of lcmtypes/.
-using MessageTypes = std::tuple<depth_cloud_t, drop_t, goal_t, grid_map_t, grid_tile_t, health_t, latency_t,
-                                map_request_t, path_point_t, path_t, pose_t, rate_t, rigid_transform_t,
-                                section_t, surfel_cell_t, surfel_t, surfels_t, terrain_map_t, terrain_tile_t>;
+using MessageTypes =
+    std::tuple<depth_cloud_t, drop_t, goal_t, grid_map_t, grid_tile_t, health_t, image_metadata_t, image_t,
+               latency_t, map_request_t, path_point_t, path_t, pose_t, rate_t, rigid_transform_t, section_t,
+               surfel_cell_t, surfel_t, surfels_t, terrain_map_t, terrain_tile_t>;
 
 /// A message of a likely kind, none of its arrays empty; the same for the same seed.
 template <class Message>

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "drivers/camera/device_clock.hpp"
+#include "drivers/kinect/color_image.hpp"
 #include "drivers/kinect/device_frame.hpp"
 #include "drivers/kinect/lens.hpp"
 #include "runtime/geometry/pinhole.hpp"
@@ -44,6 +45,8 @@ class DepthDevice {
   /// The frame that wait() told of, and when it came; valid until the next call.
   virtual DeviceFrame frame() = 0;
   virtual HostTime arrival() = 0;
+  /// The newest colour image, where colour is on and one has come since the last call.
+  virtual bool take_color(ColorImage& /*image*/) { return false; }
   virtual void close() = 0;
   /// Starts the library again, so that it looks for devices.
   virtual void restart() = 0;

@@ -18,6 +18,7 @@ struct CapturedFrame {
   std::int64_t number = 0;                    ///< the device's own count
   std::uint64_t stamp = 0;                    ///< of the device's clock
   HostTime arrival;
+  ColorImage color;  ///< empty where none came with it
 };
 
 /// How a device is.

@@ -6,6 +6,7 @@
 
 #include "drivers/kinect/node/cloud_message.hpp"
 #include "drivers/kinect/node/host_time.hpp"
+#include "drivers/kinect/node/image_message.hpp"
 #include "lcmtypes/depth_cloud.hpp"
 #include "runtime/process/health.hpp"
 
@@ -16,6 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr Micros kLossRemembered = 2s;
 constexpr std::int64_t kHanging_us = 2'000'000;
+constexpr std::int64_t kHopeless_us = 10'000'000;
 
 std::int64_t shortest_way_us(const KinectSettings& settings) {
   return static_cast<std::int64_t>(settings.exposure_to_arrival_ms * 1e3);
@@ -36,15 +38,17 @@ const char* name_of(FrameContent::Verdict verdict) {
 
 }  // namespace
 
-KinectNode::KinectNode(const KinectSettings& settings, FrameSource& source)
+KinectNode::KinectNode(const KinectSettings& settings, std::unique_ptr<FrameSource> source,
+                       std::function<void()> give_up)
     : settings_(settings),
-      source_(source),
+      source_(std::move(source)),
+      give_up_(std::move(give_up)),
       clock_(shortest_way_us(settings)),
       content_(settings.least_valid, settings.stuck_after) {}
 
 bool KinectNode::step(Micros now, Budget&, Outbox& out) {
   now_ = now;
-  if (!source_.take(frame_)) return false;
+  if (!source_->take(frame_)) return false;
   if (frame_.stream != stream_) begin(frame_.stream);
   cloud_.utime = clock_.utime_of(frame_.stamp, frame_.arrival);
   const std::int64_t missing = gaps_.missing_before(frame_.number, clock_.device_us());
@@ -56,7 +60,12 @@ bool KinectNode::step(Micros now, Budget&, Outbox& out) {
     ++withheld_;
   else
     publish(out);
+  if (!frame_.color.rgb.empty()) publish_color(out);
   return false;
+}
+
+void KinectNode::tick(Micros, Outbox&) {
+  if (give_up_ && source_->status().doing_us > kHopeless_us) std::exchange(give_up_, {})();
 }
 
 void KinectNode::begin(std::shared_ptr<const DepthStream> stream) {
@@ -74,8 +83,13 @@ void KinectNode::publish(Outbox& out) {
   latency_.add(Micros(host_time().monotonic_us - frame_.arrival.monotonic_us));
 }
 
+void KinectNode::publish_color(Outbox& out) {
+  out.publish(settings_.color_channel, image_message(frame_.color, clock_.utime_near_last(frame_.color.stamp),
+                                                     settings_.jpeg_quality));
+}
+
 void KinectNode::report(health_t& health) const {
-  const CaptureStatus status = source_.status();
+  const CaptureStatus status = source_->status();
   if (status.doing_us > kHanging_us)
     worsen(
         health, health_t::FAULT,

@@ -1,8 +1,11 @@
 #include "drivers/kinect/node/openni_device.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -13,6 +16,10 @@
 
 namespace floornav {
 namespace {
+
+using namespace std::chrono_literals;
+
+constexpr float kByHandSpeed = -1;  // OpenNI2's sign for it
 
 void check(openni::Status status, const std::string& what) {
   if (status == openni::STATUS_OK) return;
@@ -38,6 +45,15 @@ bool is_depth(const openni::VideoMode& mode) {
          mode.getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_100_UM;
 }
 
+/// Empty where the device has none.
+std::string serial_of(const openni::Device& device) {
+  std::array<char, 256> serial{};
+  int size = static_cast<int>(serial.size()) - 1;
+  const bool known =
+      device.getProperty(openni::DEVICE_PROPERTY_SERIAL_NUMBER, serial.data(), &size) == openni::STATUS_OK;
+  return known ? serial.data() : "";
+}
+
 }  // namespace
 
 /// Called on a driver's thread: only sets a flag.
@@ -59,8 +75,8 @@ class OpenNiDevice::Disconnected final : public openni::OpenNI::DeviceDisconnect
   std::atomic<bool> gone_ = false;
 };
 
-OpenNiDevice::OpenNiDevice(const KinectSettings& settings, Playback playback)
-    : settings_(settings), playback_(playback), disconnected_(std::make_unique<Disconnected>()) {
+OpenNiDevice::OpenNiDevice(const KinectSettings& settings, OpenNiOptions options)
+    : settings_(settings), options_(std::move(options)), disconnected_(std::make_unique<Disconnected>()) {
   start_library();
 }
 
@@ -101,6 +117,21 @@ std::vector<std::string> OpenNiDevice::uris() {
   return uris;
 }
 
+std::vector<std::string> OpenNiDevice::list() {
+  std::vector<std::string> lines;
+  for (const std::string& uri : uris()) {
+    openni::Device device;
+    if (device.open(uri.c_str()) != openni::STATUS_OK) {
+      lines.push_back(uri + "  cannot be opened");
+      continue;
+    }
+    const std::string serial = serial_of(device);
+    lines.push_back(fmt::format("{}  {} {}  serial number {}", uri, device.getDeviceInfo().getVendor(),
+                                device.getDeviceInfo().getName(), serial.empty() ? "unknown" : serial));
+  }
+  return lines;
+}
+
 bool OpenNiDevice::listed() {
   std::error_code error;
   if (is_file()) return std::filesystem::exists(settings_.device, error);
@@ -122,7 +153,9 @@ DepthStream OpenNiDevice::open() {
     depth_.setMirroringEnabled(false);  // a file refuses, and some devices: describe() sees what came of it
     const DepthStream stream = describe();
     if (device_.isFile()) play_file();
+    if (!options_.record.empty()) record();
     check(depth_.start(), "the depth stream does not start");
+    if (settings_.color) start_color();
     if (!device_.isFile()) disconnected_->watch(device_.getDeviceInfo().getUri());
     return stream;
   } catch (const DeviceError&) {
@@ -148,11 +181,7 @@ void OpenNiDevice::open_device() {
 
 bool OpenNiDevice::open_if_serial(const std::string& uri) {
   if (device_.open(uri.c_str()) != openni::STATUS_OK) return false;
-  std::array<char, 256> serial{};
-  int size = serial.size() - 1;
-  const openni::Status status =
-      device_.getProperty(openni::DEVICE_PROPERTY_SERIAL_NUMBER, serial.data(), &size);
-  if (status == openni::STATUS_OK && settings_.device == serial.data()) return true;
+  if (serial_of(device_) == settings_.device) return true;
   device_.close();
   return false;
 }
@@ -171,6 +200,46 @@ void OpenNiDevice::choose_mode() {
   throw DeviceError(fmt::format("the device has no depth of {}x{} at {} Hz in {} um; it offers {}",
                                 settings_.width, settings_.height, settings_.frames_per_second,
                                 settings_.depth_unit_um, fmt::join(offered, "; ")));
+}
+
+void OpenNiDevice::start_color() {
+  check(color_.create(device_, openni::SENSOR_COLOR), "the device's colour stream cannot be opened");
+  if (!device_.isFile()) {
+    openni::VideoMode mode;
+    mode.setResolution(settings_.width, settings_.height);
+    mode.setFps(settings_.frames_per_second);
+    mode.setPixelFormat(openni::PIXEL_FORMAT_RGB888);
+    check(color_.setVideoMode(mode), "the device has no colour of the size and rate of its depth");
+  }
+  if (color_.getVideoMode().getPixelFormat() != openni::PIXEL_FORMAT_RGB888)
+    throw DeviceError("the colour stream is not RGB");
+  color_.setMirroringEnabled(false);
+  check(color_.start(), "the colour stream does not start");
+}
+
+bool OpenNiDevice::take_color(ColorImage& image) {
+  if (!color_.isValid()) return false;
+  openni::VideoStream* streams[] = {&color_};
+  int ready = 0;
+  openni::VideoFrameRef frame;
+  if (openni::OpenNI::waitForAnyStream(streams, 1, &ready, 0) != openni::STATUS_OK ||
+      color_.readFrame(&frame) != openni::STATUS_OK || !frame.isValid())
+    return false;
+  const auto row_bytes = std::ptrdiff_t{3} * frame.getWidth();
+  if (frame.getStrideInBytes() < row_bytes ||
+      frame.getDataSize() < std::ptrdiff_t{frame.getStrideInBytes()} * frame.getHeight())
+    return false;
+  image.width = frame.getWidth();
+  image.height = frame.getHeight();
+  image.stamp = frame.getTimestamp();
+  image.rgb.resize(static_cast<std::size_t>(row_bytes * image.height));
+  const bool mirrored = color_.getMirroringEnabled();
+  const auto* from = static_cast<const std::uint8_t*>(frame.getData());
+  std::uint8_t* to = image.rgb.data();
+  for (int row = 0; row < image.height; ++row, from += frame.getStrideInBytes())
+    for (int column = 0; column < image.width; ++column, to += 3)
+      std::memcpy(to, from + std::ptrdiff_t{3} * (mirrored ? image.width - 1 - column : column), 3);
+  return true;
 }
 
 void OpenNiDevice::set_registration() {
@@ -220,25 +289,41 @@ Calibration OpenNiDevice::calibration_of(const openni::VideoMode& mode) {
 
 void OpenNiDevice::play_file() {
   openni::PlaybackControl& control = *device_.getPlaybackControl();
-  const bool by_hand = playback_ == Playback::kByHand;
-  frames_left_ = control.getNumberOfFrames(depth_);
-  check(control.setRepeatEnabled(!by_hand), "playback");
-  check(control.setSpeed(by_hand ? -1.0F : 1.0F), "playback");
+  frames_left_ = frames_in_file_ = control.getNumberOfFrames(depth_);
+  check(control.setRepeatEnabled(true), "playback");  // else the player's thread spins at the file's end
+  check(control.setSpeed(options_.playback == Playback::kByHand ? kByHandSpeed : 1.0F), "playback");
+}
+
+/// The player's thread walks its list of streams without a lock, while destroying one changes the list. By
+/// hand it comes to rest before its next frame.
+void OpenNiDevice::rest_player() {
+  device_.getPlaybackControl()->setSpeed(kByHandSpeed);
+  std::this_thread::sleep_for(50ms);
+}
+
+void OpenNiDevice::record() {
+  std::filesystem::path file = std::filesystem::absolute(options_.record);
+  if (++recordings_ > 1)
+    file.replace_filename(
+        fmt::format("{}-{}{}", file.stem().string(), recordings_, file.extension().string()));
+  check(recorder_.create(file.c_str()), file.string() + " cannot be recorded to");
+  check(recorder_.attach(depth_), "recording");
+  check(recorder_.start(), "recording");
 }
 
 DepthDevice::Event OpenNiDevice::wait(std::chrono::milliseconds timeout) {
-  if (disconnected_->gone()) return Event::kGone;
-  const bool by_hand = device_.isFile() && playback_ == Playback::kByHand;
-  if (by_hand && frames_left_-- <= 0) return Event::kGone;  // it would wait for ever
-  if (!by_hand) {
-    openni::VideoStream* streams[] = {&depth_};
-    int ready = 0;
-    const openni::Status status =
-        openni::OpenNI::waitForAnyStream(streams, 1, &ready, static_cast<int>(timeout.count()));
-    if (status != openni::STATUS_OK) return disconnected_->gone() ? Event::kGone : Event::kNothing;
-  }
+  const bool by_hand = device_.isFile() && options_.playback == Playback::kByHand;
+  if (disconnected_->gone() || (by_hand && frames_left_-- <= 0)) return Event::kGone;
+  const std::int64_t last_number = by_hand && frame_.isValid() ? frame_.getFrameIndex() : -1;
+  openni::VideoStream* streams[] = {&depth_};
+  int ready = 0;
+  const openni::Status status =
+      openni::OpenNI::waitForAnyStream(streams, 1, &ready, static_cast<int>(timeout.count()));
+  if (status != openni::STATUS_OK) return by_hand || disconnected_->gone() ? Event::kGone : Event::kNothing;
   arrival_ = host_time();
-  return depth_.readFrame(&frame_) == openni::STATUS_OK && frame_.isValid() ? Event::kFrame : Event::kNothing;
+  if (depth_.readFrame(&frame_) != openni::STATUS_OK || !frame_.isValid()) return Event::kNothing;
+  const bool began_again = frame_.getFrameIndex() <= last_number;
+  return began_again ? Event::kGone : Event::kFrame;
 }
 
 DeviceFrame OpenNiDevice::frame() {
@@ -255,7 +340,10 @@ DeviceFrame OpenNiDevice::frame() {
 
 void OpenNiDevice::close() {
   disconnected_->rest();
+  recorder_.destroy();
   frame_.release();
+  if (device_.isValid() && device_.isFile()) rest_player();
+  color_.destroy();
   depth_.destroy();
   device_.close();
 }

@@ -46,8 +46,8 @@ struct ControlBlock {
   std::atomic<std::int32_t> garbage;          ///< fills so many next frames with random bytes
   std::atomic<std::int32_t> black;            ///< every pixel 0 while set
   std::atomic<std::int32_t> frozen;           ///< the same image again and again while set
-  std::atomic<std::int32_t> open_hangs_ms;    ///< opening takes so long
-  std::atomic<std::int32_t> stop_hangs_ms;    ///< stopping a stream takes so long
+  std::atomic<std::int32_t> open_hangs;       ///< opening does not come back while set
+  std::atomic<std::int32_t> stop_hangs;       ///< stopping a stream does not come back while set
 
   // What happened.
   std::atomic<std::int64_t> opened;  ///< times a device was opened

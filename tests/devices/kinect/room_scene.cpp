@@ -20,7 +20,6 @@ void write_room_scene(const RoomScene& room, const std::filesystem::path& file) 
   SceneHeader header;
   header.width = room.camera.width;
   header.height = room.camera.height;
-  header.period_us = room.period_us;
   header.count_um = kCountUm;
   header.horizontal_fov_rad = 2 * std::atan(static_cast<float>(header.width) / (2 * room.camera.fx));
   header.vertical_fov_rad = 2 * std::atan(static_cast<float>(header.height) / (2 * room.camera.fy));
@@ -37,7 +36,7 @@ void write_room_scene(const RoomScene& room, const std::filesystem::path& file) 
       seen[i] = static_cast<std::uint16_t>(seen[i] + random() % 21);
     writer.add(seen);
   }
-  writer.close();
+  writer.close(room.period_us);
 }
 
 }  // namespace floornav

@@ -16,7 +16,8 @@ void SceneWriter::add(std::span<const std::uint16_t> depths) {
   ++header_.frames;
 }
 
-void SceneWriter::close() {
+void SceneWriter::close(int period_us) {
+  header_.period_us = period_us;
   file_.seekp(0);
   file_.write(reinterpret_cast<const char*>(&header_), sizeof header_);
   file_.close();

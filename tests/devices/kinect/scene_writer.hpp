@@ -15,7 +15,7 @@ class SceneWriter {
   SceneWriter(const std::filesystem::path& file, const SceneHeader& header);
   void add(std::span<const std::uint16_t> depths);
   /// Throws std::runtime_error where not all of it reached the disk.
-  void close();
+  void close(int period_us);
 
  private:
   std::filesystem::path name_;

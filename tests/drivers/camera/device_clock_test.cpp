@@ -162,5 +162,24 @@ TEST(DeviceClock, LearnsThatTheWayHasBecomeLonger) {
   EXPECT_NEAR(error, kLonger_us, 1000);
 }
 
+TEST(DeviceClock, PlacesWhatIsStampedNearTheLastFrame) {
+  for (const double stamps_per_us : {1.0, 60.0}) {
+    Camera camera;
+    camera.stamps_per_us = stamps_per_us;
+    camera.mask = 0xFFFFFFFF;
+    camera.first_stamp = 1e6;
+    DeviceClock clock(kWay_us);
+    for (int frame = 0; frame < 90 * 30; ++frame) {  // across the wrap of the raw clock
+      clock.utime_of(camera.stamp(frame), camera.arrival(frame));
+      if (frame < 2) continue;
+      for (const int other : {frame - 1, frame, frame + 1})
+        ASSERT_NEAR(
+            static_cast<double>(clock.utime_near_last(camera.stamp(other)) - camera.true_utime(other)), 0,
+            500)
+            << frame;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace floornav

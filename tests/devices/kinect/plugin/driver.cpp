@@ -37,7 +37,7 @@ class VirtualKinectDriver final : public oni::driver::DriverBase {
   oni::driver::DeviceBase* deviceOpen(const char* uri, const char*) override {
     const int number = number_of(uri);
     if (number < 0 || (known_ >> number & 1U) == 0 || is_unplugged(number)) return nullptr;
-    std::this_thread::sleep_for(std::chrono::milliseconds(control_->open_hangs_ms));
+    while (control_->open_hangs != 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     try {
       auto* device = new Device(number, *control_);
       open_[device] = number;

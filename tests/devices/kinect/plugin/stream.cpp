@@ -54,7 +54,7 @@ void Stream::stop() {
   running_ = false;
   if (!thread_.joinable()) return;
   thread_.join();
-  std::this_thread::sleep_for(std::chrono::milliseconds(control_.stop_hangs_ms));
+  while (control_.stop_hangs != 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 void Stream::play() {
