@@ -72,4 +72,23 @@ struct PcdImport {
 };
 ImportReport import_pcd(const PcdImport& what, const ImportTarget& target);
 
+/// A log of the LCM world's older Kinect drivers: kinect.frame_msg_t on a channel. Its POSE is taken where
+/// there is one; else the frames are placed as images are. Frames in a form that is not read are left out and
+/// told.
+struct LcmImport {
+  std::filesystem::path log;
+  std::string channel = "KINECT_FRAME";
+  Pinhole camera;
+  FixedMounting mounting;
+};
+ImportReport import_lcm(const LcmImport& what, const ImportTarget& target);
+
+/// A recording of OpenNI2. The camera is that of its field of view unless one is given.
+struct OniImport {
+  std::filesystem::path file;
+  std::optional<Pinhole> camera;
+  FixedMounting mounting;
+};
+ImportReport import_oni(const OniImport& what, const ImportTarget& target);
+
 }  // namespace floornav

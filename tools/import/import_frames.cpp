@@ -1,10 +1,9 @@
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "tools/import/depth_image.hpp"
-#include "tools/import/ground_pose.hpp"
+#include "tools/import/frame_place.hpp"
 #include "tools/import/import.hpp"
 #include "tools/import/pcd_file.hpp"
 #include "tools/import/pinhole_fit.hpp"
@@ -13,20 +12,6 @@
 namespace floornav {
 
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
-
-Pose sensor_pose(const FixedMounting& mounting) {
-  return mounted_sensor(mounting.height_m, mounting.pitch_deg * kRadPerDeg, mounting.roll_deg * kRadPerDeg);
-}
-
-Pose place_of(std::int64_t frame, const FixedMounting& mounting) {
-  Pose T_world_body = Pose::Identity();
-  T_world_body.translation() =
-      mounting.spacing_m * Eigen::Vector3d(static_cast<double>(frame % FixedMounting::per_row),
-                                           -static_cast<double>(frame / FixedMounting::per_row), 0);
-  return T_world_body;
-}
 
 /// One file's image with what it takes to read it.
 struct Frame {

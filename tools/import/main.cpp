@@ -81,6 +81,9 @@ void run(const CommonOptions& options, const std::function<ImportReport(const Im
   tell(import(target), options);
 }
 
+/// Of the depth camera of a Kinect v1, by its field of view.
+constexpr const char* kKinectIntrinsics = "575.8,575.8,319.5,239.5";
+
 constexpr const char* kTumExample = R"(
 A body on the plane z = floor-z stands under the camera and has its heading. The times of clouds and
 poses are the recording's own.
@@ -104,6 +107,19 @@ is refused. Frames are placed as by "depth".
 
 Example:
   floornav-import pcd five_people.pcd office1.pcd -o pcl.lcm --height 1.29 --pitch 4.7 --roll 0)";
+
+constexpr const char* kLcmExample = R"(
+Reads kinect.frame_msg_t as the kinect-lcm drivers sent it: depth in mm or 11-bit shift, plain or zlib. A POSE in the
+log (bot_core.pose_t) is taken for the body's; without one each frame is placed as by "depth".
+
+Example:
+  floornav-import lcm lcmlog-2012-10-03.00 -o stairs.lcm --height 0.8 --pitch 15 --roll 0)";
+
+constexpr const char* kOniExample = R"(
+A recording of OpenNI2 (NiViewer2, floornav-kinect --record-oni). Frames are placed as by "depth".
+
+Example:
+  floornav-import oni test.oni -o test.lcm --height 1.0 --pitch 10 --roll 0)";
 
 void add_tum(CLI::App& app, CommonOptions& common, TumImport& what) {
   CLI::App& command = *app.add_subcommand("tum", "A TUM RGB-D folder: depth.txt and groundtruth.txt");
@@ -146,6 +162,31 @@ void add_pcd(CLI::App& app, CommonOptions& common, PcdImport& what) {
   });
 }
 
+void add_lcm(CLI::App& app, CommonOptions& common, LcmImport& what) {
+  CLI::App& command = *app.add_subcommand("lcm", "A log of kinect.frame_msg_t, the LCM world's older Kinect");
+  command.add_option("LOG", what.log, "The log")->required();
+  command.add_option("--channel", what.channel, "Of the frames")->capture_default_str();
+  add_common(command, common, false);
+  add_mounting(command, what.mounting);
+  command.footer(kLcmExample);
+  command.callback([&] {
+    what.camera = parse_intrinsics(common.intrinsics.empty() ? kKinectIntrinsics : common.intrinsics);
+    run(common, [&](const ImportTarget& target) { return import_lcm(what, target); });
+  });
+}
+
+void add_oni(CLI::App& app, CommonOptions& common, OniImport& what) {
+  CLI::App& command = *app.add_subcommand("oni", "A recording of OpenNI2 without poses");
+  command.add_option("FILE", what.file, "The .oni file")->required();
+  add_common(command, common, false);
+  add_mounting(command, what.mounting);
+  command.footer(kOniExample);
+  command.callback([&] {
+    if (!common.intrinsics.empty()) what.camera = parse_intrinsics(common.intrinsics);
+    run(common, [&](const ImportTarget& target) { return import_oni(what, target); });
+  });
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app("Makes an LCM log of depth clouds and poses from recordings in other forms");
   app.name("floornav-import");
@@ -158,9 +199,13 @@ int run_program(int argc, char** argv) {
   TumImport tum;
   DepthImport depth;
   PcdImport pcd;
+  LcmImport lcm;
+  OniImport oni;
   add_tum(app, common, tum);
   add_depth(app, common, depth);
   add_pcd(app, common, pcd);
+  add_lcm(app, common, lcm);
+  add_oni(app, common, oni);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
