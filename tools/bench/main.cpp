@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/bench/driver_command.hpp"
 #include "tools/bench/outliers_command.hpp"
 #include "tools/bench/planner_command.hpp"
 #include "tools/bench/table1_command.hpp"
@@ -11,6 +12,7 @@ int main(int argc, char** argv) {
   CLI::App app("Measures the claims of floornav", "floornav-bench");
   app.require_subcommand(1);
   try {
+    floornav::add_driver_command(app);
     floornav::add_outliers_command(app);
     floornav::add_planner_command(app);
     floornav::add_table1_command(app);
