@@ -9,6 +9,7 @@ namespace {
 
 constexpr float kMinSurfelShare = 0.1F;  ///< of a cell's points, for a surfel to decide it
 constexpr std::int32_t kMinSurfelPoints = 2;
+constexpr std::size_t kSparse = 2;       ///< points of a cell of which one on a surfel is enough
 constexpr float kMinAboveShare = 0.02F;  ///< of a cell's points, to make a top above the plane
 constexpr std::size_t kMinAbovePoints = 3;
 constexpr float kAboveSigmas = 4.0F;
@@ -40,7 +41,16 @@ PlanePart part_of(std::span<const CellPoint> points, std::int16_t surfel) {
           static_cast<float>(var / (n * n) + common / n)};
 }
 
-/// The highest surfel with a fair share of the points, -1 where there is none.
+/// True where one of the points on no surfel is clearly higher than this surfel's are.
+bool something_above(std::span<const CellPoint> points, std::int16_t surfel) {
+  const float top = part_of(points, surfel).max_z;
+  return std::any_of(points.begin(), points.end(), [top](const CellPoint& p) {
+    return p.surfel < 0 && p.z_m > top + kAboveSigmas * std::sqrt(p.var_m2);
+  });
+}
+
+/// The highest surfel with a fair share of the points, -1 where there is none. Of one or two points one is
+/// enough, where nothing stands above it: far floor has no more than that in a cell.
 std::int16_t deciding_surfel(std::span<const CellPoint> points, std::size_t surfels, CellScratch& scratch) {
   scratch.surfel_points.resize(std::max(scratch.surfel_points.size(), surfels), 0);
   for (const CellPoint& p : points)
@@ -52,7 +62,8 @@ std::int16_t deciding_surfel(std::span<const CellPoint> points, std::size_t surf
   for (const CellPoint& p : points) {
     if (p.surfel < 0) continue;
     std::int32_t& count = scratch.surfel_points[static_cast<std::size_t>(p.surfel)];
-    if (count >= least) {
+    const bool sparse = points.size() <= kSparse && !something_above(points, p.surfel);
+    if (count >= least || (count > 0 && sparse)) {
       const float z = part_of(points, p.surfel).mean_z;
       if (best < 0 || z > best_z) {
         best = p.surfel;
