@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <stdexcept>
+#include <string>
 
 #include "tools/simulator/portable_math.hpp"
 #include "tools/simulator/surface.hpp"
@@ -12,6 +14,7 @@ namespace {
 
 constexpr double kSample_m = 0.01;
 constexpr double kTouch_m = 1e-6;
+constexpr double kMostCells = 4e6;
 
 /// The tangent of a robot's steepest slope.
 double steepest(const RobotSettings& robot) {
@@ -119,7 +122,12 @@ TruthGrid truth_of(const Scene& scene, const RobotSettings& robot, double resolu
   const CellIndex last = grid.lattice.cell_of(scene.area_max_m.x() - inside, scene.area_max_m.y() - inside);
   grid.width = last.ix - grid.origin.ix + 1;
   grid.height = last.iy - grid.origin.iy + 1;
-  grid.cells.reserve(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  const double cells = static_cast<double>(grid.width) * grid.height;
+  if (cells > kMostCells)
+    throw std::invalid_argument("the truth of this area would have " +
+                                std::to_string(static_cast<long long>(cells)) +
+                                " cells; a coarser resolution is needed");
+  grid.cells.reserve(static_cast<std::size_t>(cells));
   CellSampler sampler(scene.fixed, robot, grid.lattice);
   for (std::int32_t iy = grid.origin.iy; iy <= last.iy; ++iy)
     for (std::int32_t ix = grid.origin.ix; ix <= last.ix; ++ix) grid.cells.push_back(sampler.judge({ix, iy}));

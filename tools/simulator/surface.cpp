@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <stdexcept>
 
 namespace floornav {
 namespace {
@@ -21,7 +23,8 @@ struct Layers {
   std::array<Layer, kMostLayers> layer;
   std::size_t count = 0;
   void add(const Layer& l) {
-    if (count < kMostLayers) layer[count++] = l;
+    if (count == kMostLayers) throw std::length_error("more than 64 things of a scene lie over one place");
+    layer[count++] = l;
   }
 };
 
@@ -38,7 +41,7 @@ Layers layers_at(const Shapes& shapes, const Eigen::Vector2d& place) {
   for (const Waves& waves : shapes.waves) {
     const Eigen::Vector2d local = waves.footprint.local(place);
     if (waves.footprint.contains(local))
-      layers.add({waves.base_m, waves.top_at(local.x()), std::abs(waves.slope_at(local.x()))});
+      layers.add({waves.base_m, waves.top_at(local.x()), std::fabs(waves.slope_at(local.x()))});
   }
   return layers;
 }
