@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tools/bench/steps.hpp"
 #include "tools/bench/table1.hpp"
 
 namespace floornav {
@@ -61,21 +62,54 @@ nlohmann::json json_of(const Table1Row& row) {
           {"paper_far_cm", paper.far_cm}};
 }
 
+void print_steps(const std::vector<StepRow>& rows) {
+  fmt::print("\nSteps found, % of poses, by distance\n{:<10}{:<13}{:>7}{:>6} |", "sensor", "noise", "frames",
+             "cm");
+  for (const double distance_m : kStepDistances_m) fmt::print("{:>6.1f} m", distance_m);
+  fmt::print(" | false per m2\n");
+  for (std::size_t i = 0; i < rows.size(); i += kStepDistances_m.size()) {
+    const StepRow& row = rows[i];
+    fmt::print("{:<10}{:<13}{:>7}{:>6.0f} |", name_of(row.sensor),
+               row.correlated ? "correlated" : "independent", row.frames, 100.0 * row.height_m);
+    for (std::size_t k = 0; k < kStepDistances_m.size(); ++k)
+      fmt::print("{:>8.0f}", 100.0 * rows[i + k].found / rows[i + k].poses);
+    fmt::print(" | {:.3f}\n", row.false_per_m2);
+  }
+}
+
+nlohmann::json json_of(const StepRow& row) {
+  return {{"sensor", name_of(row.sensor)},
+          {"noise", row.correlated ? "correlated" : "independent"},
+          {"height_cm", 100.0 * row.height_m},
+          {"distance_m", row.distance_m},
+          {"frames", row.frames},
+          {"poses", row.poses},
+          {"found", static_cast<double>(row.found) / row.poses},
+          {"false_per_m2", row.false_per_m2}};
+}
+
 struct Table1Options {
   int configurations = 20;
+  int step_poses = 20;
+  double plain_m2 = 200.0;
   std::uint64_t seed = 1;
   bool json = false;
 };
 
 void run(const Table1Options& options) {
-  const auto rows = measure_table1(options.configurations, options.seed,
-                                   [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
+  const auto progress = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  const auto rows = measure_table1(options.configurations, options.seed, progress);
+  std::vector<StepRow> steps;
+  if (options.step_poses > 0)
+    steps = measure_steps(options.step_poses, options.plain_m2, options.seed, progress);
   if (!options.json) {
     print_text(rows);
+    if (!steps.empty()) print_steps(steps);
     return;
   }
-  nlohmann::json result{{"rows", nlohmann::json::array()}};
+  nlohmann::json result{{"rows", nlohmann::json::array()}, {"steps", nlohmann::json::array()}};
   for (const Table1Row& row : rows) result["rows"].push_back(json_of(row));
+  for (const StepRow& row : steps) result["steps"].push_back(json_of(row));
   fmt::print("{}\n", result.dump());
 }
 
@@ -87,6 +121,14 @@ void add_table1_command(CLI::App& app) {
   const auto options = std::make_shared<Table1Options>();
   command->add_option("--configurations", options->configurations, "Obstacle configurations a row")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--step-poses", options->step_poses,
+                   "Random poses for each step; 0: no steps; 200 take hours")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  command->add_option("--plain-m2", options->plain_m2, "Floor without steps, for false alarms")
+      ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of the configurations and the noise")->capture_default_str();
   command->add_flag("--json", options->json, "For programs");
