@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/simulate/closed_loop_command.hpp"
 #include "tools/simulate/drive_command.hpp"
 
 int main(int argc, char** argv) {
@@ -12,6 +13,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   try {
     floornav::add_drive_command(app);
+    floornav::add_closed_loop_command(app);
     CLI11_PARSE(app, argc, argv);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "floornav-simulate: %s\n", e.what());

@@ -1,0 +1,154 @@
+#include "tools/simulate/closed_loop_command.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "runtime/process/thread_pool.hpp"
+#include "tools/simulate/closed_loop.hpp"
+#include "tools/simulate/drive_base.hpp"
+
+namespace floornav {
+namespace {
+
+constexpr double kRobotRadius_m = 0.52;  ///< the circle around PowerBot's rectangle
+constexpr double kCameraHeight_m = 0.72;
+
+struct ClosedLoopOptions {
+  int worlds = 20;
+  std::uint64_t seed = 1;
+  double difficulty = 0.5;
+  int width = 160;
+  double camera_pitch_deg = 30.0;  ///< sees the floor from the robot's bumper on
+  int threads = 2;
+  bool exact_pose = false;
+  bool json = false;
+  std::string log;
+  ClosedLoopSettings settings;
+};
+
+const char* name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kReached:
+      return "reached";
+    case Outcome::kStopped:
+      return "stopped";
+    default:
+      return "collided";
+  }
+}
+
+struct Tally {
+  int reached = 0;
+  int stopped = 0;
+  int collided = 0;
+  double length_ratio = 0;  ///< median over the worlds reached
+};
+
+Tally tally_of(const std::vector<ClosedLoopResult>& results) {
+  Tally tally;
+  std::vector<double> ratios;
+  for (const ClosedLoopResult& r : results) {
+    if (r.outcome == Outcome::kStopped) ++tally.stopped;
+    if (r.outcome == Outcome::kCollided) ++tally.collided;
+    if (r.outcome != Outcome::kReached) continue;
+    ++tally.reached;
+    ratios.push_back(r.travelled_m / r.shortest_m);
+  }
+  if (ratios.empty()) return tally;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  tally.length_ratio = *middle;
+  return tally;
+}
+
+std::vector<ClosedLoopResult> drive_all(const ClosedLoopOptions& options, const RobotSettings& robot) {
+  std::vector<ClosedLoopResult> results(static_cast<std::size_t>(options.worlds));
+  std::optional<LogWriter> log;
+  if (!options.log.empty()) log.emplace(options.log);
+  ThreadPool pool(options.threads);
+  pool.run(options.worlds, [&](int index, int) {
+    const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(index);
+    const RandomWorld world = random_world(seed, options.difficulty, robot);
+    results[static_cast<std::size_t>(index)] =
+        drive_world(world, robot, options.settings, seed, log ? &*log : nullptr);
+  });
+  if (log) log->close();
+  return results;
+}
+
+void print_text(const ClosedLoopOptions& options, const std::vector<ClosedLoopResult>& results) {
+  fmt::print("{:<8}{:<10}{:>8}{:>10}{:>10}{:>8}  {}\n", "seed", "outcome", "s", "driven m", "short. m",
+             "replans", "last word");
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const ClosedLoopResult& r = results[i];
+    fmt::print("{:<8}{:<10}{:>8.1f}{:>10.2f}{:>10.2f}{:>8}  {} at {:.2f}, {:.2f}\n", options.seed + i,
+               name_of(r.outcome), r.seconds, r.travelled_m, r.shortest_m, r.replans, r.reason, r.end_m.x(),
+               r.end_m.y());
+  }
+  const Tally tally = tally_of(results);
+  fmt::print("{} worlds: {} reached, {} stopped, {} collided; driven / shortest: median {:.2f}\n",
+             results.size(), tally.reached, tally.stopped, tally.collided, tally.length_ratio);
+}
+
+void run(ClosedLoopOptions& options) {
+  if (!options.log.empty() && options.worlds != 1)
+    throw std::invalid_argument("--log: for one world, --worlds 1");
+  RobotSettings robot;
+  robot.radius_m = kRobotRadius_m;
+  options.settings.sensor = kinect(options.width);
+  options.settings.sensor.rate_hz = 10.0;
+  options.settings.sensor.T_body_sensor = mounted(0.0, 0.0, kCameraHeight_m, options.camera_pitch_deg);
+  if (options.exact_pose) options.settings.pose_noise = {};
+  const auto results = drive_all(options, robot);
+  if (!options.json) {
+    print_text(options, results);
+    return;
+  }
+  const Tally tally = tally_of(results);
+  const nlohmann::json line{{"worlds", options.worlds},
+                            {"reached", tally.reached},
+                            {"stopped", tally.stopped},
+                            {"collided", tally.collided},
+                            {"length_ratio", tally.length_ratio}};
+  fmt::print("{}\n", line.dump());
+}
+
+}  // namespace
+
+void add_closed_loop_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "closed-loop", "Perception, mapper and planner drive a PowerBot through random rooms, in virtual time");
+  const auto o = std::make_shared<ClosedLoopOptions>();
+  o->settings.pose_noise = {.position_m = 0.01, .angle_deg = 0.3};
+  command->add_option("--worlds", o->worlds, "How many")->check(CLI::Range(1, 100000))->capture_default_str();
+  command->add_option("--seed", o->seed, "Of the first world; the next ones follow")->capture_default_str();
+  command->add_option("--difficulty", o->difficulty, "0 (wide) to 1 (crowded, steps, drops)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--width", o->width, "Pixels of the Kinect's image that are rendered, a divisor of 640")
+      ->capture_default_str();
+  command->add_option("--camera-pitch", o->camera_pitch_deg, "deg down")
+      ->check(CLI::Range(-60.0, 89.0))
+      ->capture_default_str();
+  command->add_option("--threads", o->threads, "Worlds at once")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->add_option("--pose-noise", o->settings.pose_noise.position_m, "m, 1 sigma of each axis")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--angle-noise", o->settings.pose_noise.angle_deg, "deg, 1 sigma of each axis")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command->add_flag("--exact-pose", o->exact_pose, "No noise of the pose");
+  command->add_option("--log", o->log, "Every message of the run, with --worlds 1");
+  command->add_flag("--json", o->json, "For programs");
+  command->callback([o] { run(*o); });
+}
+
+}  // namespace floornav

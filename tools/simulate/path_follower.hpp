@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+
+#include "floornav/path_t.hpp"
+#include "runtime/geometry/robot.hpp"
+#include "runtime/process/time.hpp"
+#include "tools/simulator/trajectory.hpp"
+
+namespace floornav {
+
+/// What a differential drive is asked for.
+struct DriveCommand {
+  double speed_mps = 0;
+  double turn_radps = 0;
+};
+
+/// A simple controller: pure pursuit of the newest PATH at the speeds that it allows; stands still without a
+/// valid one. Where a path ends at the frontier of what was seen, the robot turns once around itself there,
+/// towards the path's heading first, so that its sensor sees more.
+class PathFollower {
+ public:
+  explicit PathFollower(const RobotSettings& robot) : robot_(robot) {}
+
+  void accept(const path_t& path, Micros now);
+  /// `believed` is the robot's place by its odometry, `speed_mps` what it drives.
+  [[nodiscard]] DriveCommand command(const PlanarState& believed, double speed_mps, Micros now);
+
+  [[nodiscard]] const std::optional<path_t>& path() const { return path_; }
+
+ private:
+  [[nodiscard]] DriveCommand look_around(const PlanarState& believed);
+
+  RobotSettings robot_;
+  std::optional<path_t> path_;
+  Micros received_{0};
+
+  /// The last look around: where, which way, how far, and the heading when it was last asked for.
+  struct Look {
+    Eigen::Vector2d place_m;
+    Eigen::Vector2d ahead;
+    double direction = 1;
+    double turned_rad = 0;
+  };
+  std::optional<Look> look_;
+};
+
+}  // namespace floornav
