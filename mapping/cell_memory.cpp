@@ -123,6 +123,14 @@ void CellMemory::merge(const FusionLimits& limits) {
   upper_ = Level{};
 }
 
+bool CellMemory::has_high_top() const {
+  return upper_.exists() && lower_.exists() && looks_under(lower_.z_m, upper_);
+}
+
+void CellMemory::see_through_top() {
+  weaken(upper_, 1);
+}
+
 bool CellMemory::fuse(const CellView& view, const FusionLimits& limits) {
   Seen seen;
   for (const Sighting& sighting : view.sightings) place(sighting, limits, seen);

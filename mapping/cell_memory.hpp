@@ -65,6 +65,10 @@ class CellMemory {
     if (upper_.trusted()) return &upper_;
     return lower_.trusted() ? &lower_ : nullptr;
   }
+  /// A flat top so high above the floor in the same cell that the floor can be seen from the side below it.
+  [[nodiscard]] bool has_high_top() const;
+  /// Takes from that top's support, after a sight line went right through it.
+  void see_through_top();
   [[nodiscard]] const Level& lower() const { return lower_; }
   [[nodiscard]] const Level& upper() const { return upper_; }
   /// Frames whose rays found no floor here, since one last did; at most 255.

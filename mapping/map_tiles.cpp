@@ -32,6 +32,15 @@ std::size_t MapTiles::slot_of(CellIndex cell) const {
   return (GridMap::index_of(vertex) * side + y) * side + x;
 }
 
+CellIndex MapTiles::cell_at(const MapTile& tile, std::size_t slot) const {
+  const std::int32_t side = cells_per_vertex_;
+  const auto place = static_cast<std::int32_t>(slot);
+  const std::int32_t vertex = place / (side * side);
+  const std::int32_t within = place % (side * side);
+  return {(tile.index.ix * MapTile::kSide + vertex % MapTile::kSide) * side + within % side,
+          (tile.index.iy * MapTile::kSide + vertex / MapTile::kSide) * side + within / side};
+}
+
 const CellMemory* MapTiles::find_cell(CellIndex cell) const {
   const MapTile* const tile = find(GridMap::tile_of(vertex_of(cell)));
   return tile ? &tile->cells[slot_of(cell)] : nullptr;

@@ -26,6 +26,8 @@ class MapTiles {
   }
   /// Place of a lattice cell in MapTile::cells of its vertex's tile.
   [[nodiscard]] std::size_t slot_of(CellIndex cell) const;
+  /// The lattice cell at a place in a tile's MapTile::cells.
+  [[nodiscard]] CellIndex cell_at(const MapTile& tile, std::size_t slot) const;
   /// Null where there is no tile.
   [[nodiscard]] const CellMemory* find_cell(CellIndex cell) const;
   /// False where there is no tile.

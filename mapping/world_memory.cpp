@@ -85,11 +85,63 @@ void WorldMemory::take_cell(const FloorEvidence& evidence, Entries entries, cons
   const bool overhead = split_overhead(memory, overhead_limit_m(evidence, cell, vertex, floor));
   view.sightings = sightings_;
   if (!memory.fuse(view, limits_) && !overhead) return;
-  if (tile->touched.none()) touched_.push_back(tile->index);
   const std::size_t index = GridMap::index_of(vertex);
-  tile->touched.set(index);
+  touch(*tile, index);
+  tile->high_tops = tile->high_tops || memory.has_high_top();
   if (!sightings_.empty())
     tile->vertices[index].seen_us = std::max(tile->vertices[index].seen_us, evidence.utime_us);
+}
+
+void WorldMemory::touch(MapTile& tile, std::size_t vertex) {
+  if (tile.touched.none()) touched_.push_back(tile.index);
+  tile.touched.set(vertex);
+}
+
+/// Whether this frame saw a surface about this high in a cell.
+bool WorldMemory::saw(const FloorEvidence& evidence, CellIndex cell, float z_m) const {
+  constexpr float kAbout_m = 0.1F;
+  const auto key = [&](std::uint32_t i) { return evidence.cells[i].cell; };
+  const auto entries = std::ranges::equal_range(order_, cell, {}, key);
+  return std::ranges::any_of(entries, [&](std::uint32_t i) {
+    const CellEvidence& seen = evidence.cells[i];
+    return seen.points >= Level::kTrusted && std::abs(seen.mean_z_m - z_m) < kAbout_m;
+  });
+}
+
+void WorldMemory::see_through_tops(const FloorEvidence& evidence, const Eigen::Vector3d& sensor_m,
+                                   MapTile& tile, const MapTiles& tiles) {
+  constexpr double kLeastAbove_m = 0.05;
+  const Lattice& lattice = evidence.lattice;
+  for (std::size_t slot = 0; slot < tile.cells.size(); ++slot) {
+    CellMemory& memory = tile.cells[slot];
+    if (!memory.has_high_top()) continue;
+    const double above_top_m = sensor_m.z() - static_cast<double>(memory.upper().z_m);
+    if (above_top_m < kLeastAbove_m) continue;
+    const CellIndex cell = tiles.cell_at(tile, slot);
+    const Eigen::Vector2d top_m(lattice.center_of(cell.ix), lattice.center_of(cell.iy));
+    const double farther = (sensor_m.z() - static_cast<double>(memory.lower().z_m)) / above_top_m;
+    const Eigen::Vector2d floor_m = sensor_m.head<2>() + farther * (top_m - sensor_m.head<2>());
+    if (!saw(evidence, lattice.cell_of(floor_m.x(), floor_m.y()), memory.lower().z_m)) continue;
+    if (saw(evidence, cell, memory.upper().z_m)) continue;
+    memory.see_through_top();
+    touch(tile, slot / (tile.cells.size() / tile.vertices.size()));
+  }
+}
+
+/// Floor that is seen below a table came into sight from the side and says nothing of its top. But where the
+/// sight line to a piece of floor crosses the height of a remembered top inside that top, the top is gone.
+void WorldMemory::see_through_tops(const FloorEvidence& evidence, MapTiles& tiles) {
+  const Eigen::Vector3d sensor_m = (evidence.T_world_body * evidence.T_body_sensor).translation();
+  const auto corner = [&](double offset_m) {
+    const Eigen::Vector2d at_m = sensor_m.head<2>().array() + offset_m;
+    return GridMap::tile_of(tiles.vertex_of(evidence.lattice.cell_of(at_m.x(), at_m.y())));
+  };
+  const CellIndex first = corner(-settings_.max_range_m);
+  const CellIndex last = corner(settings_.max_range_m);
+  for (std::int32_t iy = first.iy; iy <= last.iy; ++iy)
+    for (std::int32_t ix = first.ix; ix <= last.ix; ++ix)
+      if (MapTile* const tile = tiles.find({ix, iy}); tile != nullptr && tile->high_tops)
+        see_through_tops(evidence, sensor_m, *tile, tiles);
 }
 
 WorldMemory::Taken WorldMemory::take(const FloorEvidence& evidence, const FloorHeight& floor,
@@ -104,6 +156,7 @@ WorldMemory::Taken WorldMemory::take(const FloorEvidence& evidence, const FloorH
     take_cell(evidence, Entries(order_).subspan(first, last - first), floor, tiles);
     first = last;
   }
+  see_through_tops(evidence, tiles);
   return taken;
 }
 

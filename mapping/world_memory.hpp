@@ -39,6 +39,11 @@ class WorldMemory {
   [[nodiscard]] float overhead_limit_m(const FloorEvidence& evidence, CellIndex cell, CellIndex vertex,
                                        const FloorHeight& floor);
   bool split_overhead(CellMemory& memory, float limit_z_m);
+  void touch(MapTile& tile, std::size_t vertex);
+  void see_through_tops(const FloorEvidence& evidence, MapTiles& tiles);
+  void see_through_tops(const FloorEvidence& evidence, const Eigen::Vector3d& sensor_m, MapTile& tile,
+                        const MapTiles& tiles);
+  [[nodiscard]] bool saw(const FloorEvidence& evidence, CellIndex cell, float z_m) const;
 
   MappingSettings settings_;
   EvidenceReader reader_;
