@@ -54,6 +54,7 @@ FloorEvidence FloorPerception::process(const DepthFrame& frame, const Pose& T_wo
   results_.assign(static_cast<std::size_t>(grid_.count()), {});
   keep_.assign(cloud_.size(), 0);
   label_.assign(cloud_.size(), kOutlier);
+  floor_agreement_.clear();
   for (int row = 0; row < grid_.x_res(); ++row) {
     const std::vector<int> sections = admit_row(row, admit);
     for (const int section : sections)
@@ -62,6 +63,7 @@ FloorEvidence FloorPerception::process(const DepthFrame& frame, const Pose& T_wo
       find_section_planes(sections[static_cast<std::size_t>(index)], frame.utime_us, view,
                           section_scratch_[static_cast<std::size_t>(worker)]);
     });
+    agree_on_floor(sections);
   }
   collect_surfels(view, evidence);
   collect_cells(frame, view, parallel, evidence);
@@ -100,6 +102,19 @@ void FloorPerception::find_section_planes(int section, std::int64_t utime_us, co
   const auto s = static_cast<std::size_t>(section);
   results_[s].planes =
       plane_finder_.find(cloud_, section, view, memory_[s].floor_normal, seed.next(), label_, scratch);
+}
+
+/// The floors of the row's sections agree with each other and with those of the nearer rows.
+void FloorPerception::agree_on_floor(std::span<const int> sections) {
+  const auto floor_of = [&](int section) -> SectionPlane* {
+    auto& planes = results_[static_cast<std::size_t>(section)].planes;
+    return !planes.empty() && planes.front().dominant ? &planes.front() : nullptr;
+  };
+  for (const int section : sections)
+    if (const SectionPlane* floor = floor_of(section)) floor_agreement_.add(floor->fit);
+  for (const int section : sections)
+    if (SectionPlane* floor = floor_of(section))
+      floor->plane = floor_agreement_.settle(floor->fit, floor->plane);
 }
 
 void FloorPerception::collect_surfels(const SensorView& view, FloorEvidence& evidence) {

@@ -10,6 +10,7 @@
 #include "perception/cell_points.hpp"
 #include "perception/depth_frame.hpp"
 #include "perception/evidence.hpp"
+#include "perception/floor_agreement.hpp"
 #include "perception/outliers.hpp"
 #include "perception/roi_cloud.hpp"
 #include "perception/section_planes.hpp"
@@ -47,6 +48,7 @@ class FloorPerception {
   void remove_section_outliers(int section, const Pinhole& camera, Parallel& parallel, PixelCounts& counts);
   void find_section_planes(int section, std::int64_t utime_us, const SensorView& view,
                            SectionScratch& scratch);
+  void agree_on_floor(std::span<const int> sections);
   void collect_surfels(const SensorView& view, FloorEvidence& evidence);
   void collect_cells(const DepthFrame& frame, const SensorView& view, Parallel& parallel,
                      FloorEvidence& evidence);
@@ -67,6 +69,7 @@ class FloorPerception {
   std::vector<std::uint8_t> keep_;
   std::vector<std::int16_t> label_;
   std::vector<SectionResult> results_;
+  FloorAgreement floor_agreement_;
   std::vector<SectionScratch> section_scratch_;
   CellPoints cell_points_;
   SightLines sight_lines_;

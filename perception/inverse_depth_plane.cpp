@@ -36,6 +36,17 @@ std::optional<InverseDepthPlane> plane_through(const Eigen::Vector3f& p, const E
   return InverseDepthPlane{coefficients.x(), coefficients.y(), coefficients.z()};
 }
 
+PlaneFit& PlaneFit::operator+=(const PlaneFit& more) {
+  w_ += more.w_, x_ += more.x_, y_ += more.y_, q_ += more.q_, qq_ += more.qq_;
+  xx_ += more.xx_, xy_ += more.xy_, yy_ += more.yy_, xq_ += more.xq_, yq_ += more.yq_;
+  return *this;
+}
+
+PlaneFit& PlaneFit::operator*=(double weight) {
+  for (double* sum : {&w_, &x_, &y_, &q_, &qq_, &xx_, &xy_, &yy_, &xq_, &yq_}) *sum *= weight;
+  return *this;
+}
+
 std::optional<InverseDepthPlane> PlaneFit::solve() const {
   if (!(w_ > 0.0)) return std::nullopt;
   const double mx = x_ / w_, my = y_ / w_, mq = q_ / w_;

@@ -41,8 +41,14 @@ class PlaneFit {
     w_ += w, x_ += w * x, y_ += w * y, q_ += w * q, qq_ += w * q * q;
     xx_ += w * x * x, xy_ += w * x * y, yy_ += w * y * y, xq_ += w * x * q, yq_ += w * y * q;
   }
+  PlaneFit& operator+=(const PlaneFit& more);
+  /// Weighs all that was added.
+  PlaneFit& operator*=(double weight);
   /// Nothing where the rays do not span a plane.
   [[nodiscard]] std::optional<InverseDepthPlane> solve() const;
+  [[nodiscard]] Eigen::Vector2f mean_ray() const {
+    return {static_cast<float>(x_ / w_), static_cast<float>(y_ / w_)};
+  }
   /// The best one of the planes parallel to `plane`.
   [[nodiscard]] InverseDepthPlane solve_parallel(const InverseDepthPlane& plane) const;
   /// Weighted sum of squared residuals.

@@ -82,8 +82,7 @@ struct SectionPlaneFinder::Search {
   }
 
   /// Refines on the points that the plane owns; nothing where they are too few.
-  std::optional<InverseDepthPlane> settle(const PlanePool& pool, const InverseDepthPlane& found,
-                                          bool is_floor) {
+  std::optional<SectionPlane> settle(const PlanePool& pool, const InverseDepthPlane& found, bool is_floor) {
     count_blocks(pool, found, is_floor);
     PlaneFit fit;
     int points = 0;
@@ -94,16 +93,20 @@ struct SectionPlaneFinder::Search {
     }
     if (points < finder.settings_.min_points) return std::nullopt;
     const auto free = fit.solve();
-    if (!free || is_floor || planes.empty() || !planes.front().dominant) return free;
+    if (!free) return std::nullopt;
+    const SectionPlane settled{*free, fit, is_floor};
+    if (is_floor || planes.empty() || !planes.front().dominant) return settled;
     const InverseDepthPlane parallel = fit.solve_parallel(planes.front().plane);
-    return fit.cost(parallel) - fit.cost(*free) < kParallelCost ? parallel : free;
+    return fit.cost(parallel) - fit.cost(*free) < kParallelCost ? SectionPlane{parallel, fit, false}
+                                                                : settled;
   }
 
   /// Labels the plane's points and takes them, and the noise around them, out of the pool. False, and nothing
   /// is done, where they are too few.
-  bool claim(const InverseDepthPlane& plane, bool is_floor) {
+  bool claim(const SectionPlane& settled) {
+    const InverseDepthPlane& plane = settled.plane;
     PlanePool& pool = scratch.pool;
-    count_blocks(pool, plane, is_floor);
+    count_blocks(pool, plane, settled.dominant);
     int points = 0;
     for (std::size_t i = 0; i < pool.size(); ++i) points += claims(pool, i, plane) ? 1 : 0;
     if (points < finder.settings_.min_points) return false;
@@ -116,7 +119,7 @@ struct SectionPlaneFinder::Search {
       if (claimed || noise) label[static_cast<std::size_t>(pool.point[i])] = claimed ? index : kPlaneNoise;
       return !claimed && !noise;
     });
-    planes.push_back({plane, is_floor});
+    planes.push_back(settled);
     return true;
   }
 
@@ -136,7 +139,7 @@ struct SectionPlaneFinder::Search {
     const auto found = find_plane(scratch.floor_pool, query, random, scratch.ransac);
     if (!found) return false;
     const auto settled = settle(scratch.floor_pool, *found, true);
-    return settled && query.admits(*settled) && claim(*settled, true);
+    return settled && query.admits(settled->plane) && claim(*settled);
   }
 
   /// The passes after the first: planes of any inclination among the points left over.
@@ -150,7 +153,7 @@ struct SectionPlaneFinder::Search {
       const auto found = find_plane(scratch.pool, query, random, scratch.ransac);
       if (!found) return;
       const auto settled = settle(scratch.pool, *found, false);
-      if (!settled || !claim(*settled, false)) set_aside(*found);
+      if (!settled || !claim(*settled)) set_aside(*found);
     }
   }
 };

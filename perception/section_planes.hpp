@@ -23,6 +23,7 @@ inline constexpr std::int16_t kOutlier = -3;     ///< removed by eq. (6)
 
 struct SectionPlane {
   InverseDepthPlane plane;
+  PlaneFit fit;           ///< of the points that gave the plane
   bool dominant = false;  ///< the section's floor: first pass
 };
 
