@@ -147,10 +147,19 @@ void CaptureLoop::receive() {
 
 void CaptureLoop::hand_over() {
   const std::scoped_lock lock(mutex_);
-  if (has_newest_) ++status_.drops["frame superseded"];
-  std::swap(newest_, filling_);
-  has_newest_ = true;
+  if (waiting_count_ == waiting_.size()) drop_oldest();
+  filling_.dropped_before = std::exchange(dropped_, 0);
+  std::swap(waiting_[(first_waiting_ + waiting_count_) % waiting_.size()], filling_);
+  ++waiting_count_;
   if (arrived_) arrived_();
+}
+
+void CaptureLoop::drop_oldest() {
+  const std::int64_t dropped = waiting_[first_waiting_].dropped_before + 1;
+  first_waiting_ = (first_waiting_ + 1) % waiting_.size();
+  --waiting_count_;
+  waiting_[first_waiting_].dropped_before += dropped;
+  ++status_.drops["frame superseded"];
 }
 
 void CaptureLoop::notify(std::function<void()> arrived) {
@@ -160,8 +169,10 @@ void CaptureLoop::notify(std::function<void()> arrived) {
 
 bool CaptureLoop::take(CapturedFrame& frame) {
   const std::scoped_lock lock(mutex_);
-  if (!std::exchange(has_newest_, false)) return false;
-  std::swap(frame, newest_);
+  if (waiting_count_ == 0) return false;
+  std::swap(frame, waiting_[first_waiting_]);
+  first_waiting_ = (first_waiting_ + 1) % waiting_.size();
+  --waiting_count_;
   return true;
 }
 
@@ -175,6 +186,7 @@ CaptureStatus CaptureLoop::status() const {
 void CaptureLoop::drop(const char* cause) {
   const std::scoped_lock lock(mutex_);
   ++status_.drops[cause];
+  ++dropped_;
 }
 
 /// Tells a person what has changed; nothing: frames come.

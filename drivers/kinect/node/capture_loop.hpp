@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -21,8 +22,8 @@ namespace floornav {
 /// When a device is given up and tried again.
 Connection::Periods periods_of(const KinectSettings& settings);
 
-/// Opens a device, waits for its frames, closes it when they cease and opens it again. Holds the newest frame
-/// until it is taken.
+/// Opens a device, waits for its frames, closes it when they cease and opens it again. Holds the newest
+/// frames until they are taken: enough for whoever takes them to be late by a tenth of a second.
 class CaptureLoop {
  public:
   /// `tell` is called with a line for a person when the device comes or goes.
@@ -47,6 +48,7 @@ class CaptureLoop {
   void receive();
   void hand_over();
   void drop(const char* cause);
+  void drop_oldest();
   void say(const std::string& trouble);
   template <class Call>
   auto timed(const char* doing, Call call);
@@ -61,8 +63,10 @@ class CaptureLoop {
   mutable std::mutex mutex_;  ///< of what follows
   std::function<void(const std::string&)> tell_;
   std::function<void()> arrived_;
-  CapturedFrame newest_;
-  bool has_newest_ = false;
+  std::array<CapturedFrame, 4> waiting_;  ///< a ring; no frame's memory is given back
+  std::size_t first_waiting_ = 0;
+  std::size_t waiting_count_ = 0;
+  std::int64_t dropped_ = 0;  ///< since the last frame that was handed over
   CaptureStatus status_;
   std::int64_t doing_since_us_ = 0;
   bool stopping_ = false;

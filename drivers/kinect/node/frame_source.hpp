@@ -16,7 +16,9 @@ struct CapturedFrame {
   std::shared_ptr<const DepthStream> stream;  ///< a new one each time the device was opened
   std::vector<std::uint16_t> pixels;          ///< row by row, counts of stream->count_m
   std::int64_t number = 0;                    ///< the device's own count
-  std::uint64_t stamp = 0;                    ///< of the device's clock
+  /// Frames that came since the one before and are not handed over: CaptureStatus::drops counts them.
+  std::int64_t dropped_before = 0;
+  std::uint64_t stamp = 0;  ///< of the device's clock
   HostTime arrival;
   ColorImage color;  ///< empty where none came with it
 };
@@ -34,8 +36,8 @@ struct CaptureStatus {
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
-  /// Swaps the newest frame into `frame`, whose memory is used again. False where none has come since the
-  /// last call.
+  /// Swaps the next frame into `frame`, whose memory is used again. False where none has come since the last
+  /// call.
   virtual bool take(CapturedFrame& frame) = 0;
   [[nodiscard]] virtual CaptureStatus status() const = 0;
   /// `arrived` is called on any thread after each frame; empty: no more.

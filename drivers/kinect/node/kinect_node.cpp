@@ -1,5 +1,6 @@
 #include "drivers/kinect/node/kinect_node.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -52,8 +53,9 @@ bool KinectNode::step(Micros now, Budget&, Outbox& out) {
   if (frame_.stream != stream_) begin(frame_.stream);
   cloud_.utime = clock_.utime_of(frame_.stamp, frame_.arrival);
   const std::int64_t missing = gaps_.missing_before(frame_.number, clock_.device_us());
-  if (missing > 0) last_loss_ = now;
-  lost_ += missing;
+  const std::int64_t lost = std::max<std::int64_t>(0, missing - frame_.dropped_before);
+  if (lost > 0) last_loss_ = now;
+  lost_ += lost;
   cloud_.frame += 1 + missing;
   verdict_ = content_.look_at(frame_.pixels);
   if (verdict_ == FrameContent::Verdict::kStuck)
@@ -61,7 +63,7 @@ bool KinectNode::step(Micros now, Budget&, Outbox& out) {
   else
     publish(out);
   if (!frame_.color.rgb.empty()) publish_color(out);
-  return false;
+  return true;
 }
 
 void KinectNode::tick(Micros, Outbox&) {

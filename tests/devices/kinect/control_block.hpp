@@ -50,9 +50,10 @@ struct ControlBlock {
   std::atomic<std::int32_t> stop_hangs;       ///< stopping a stream does not come back while set
 
   // What happened.
-  std::atomic<std::int64_t> opened;  ///< times a device was opened
-  std::atomic<std::int64_t> raised;  ///< frames handed to OpenNI2
-  std::atomic<std::int64_t> lost;    ///< frames that `drop` took
+  std::atomic<std::int32_t> registered;  ///< registration is switched on
+  std::atomic<std::int64_t> opened;      ///< times a device was opened
+  std::atomic<std::int64_t> raised;      ///< frames handed to OpenNI2
+  std::atomic<std::int64_t> lost;        ///< frames that `drop` took
   std::atomic<std::int64_t> last_raised_us;
   std::array<RaisedFrame, kRecords> records;  ///< of frame n: records[n % kRecords]
 };

@@ -1,10 +1,13 @@
 // virtual-kinect: runs programs with a Kinect that is none, and commands it.
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <functional>
 #include <map>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -26,6 +29,7 @@ struct RunOptions {
   int max_frames = 400;
   int transfer_ms = 33;
   std::array<double, 2> goal_m = {3.0, 0.0};
+  double seconds = 0;
   double drive_seconds = 0;
   int may_lose = 0;
   std::string lcm_url;
@@ -46,9 +50,16 @@ pid_t start(const std::vector<std::string>& command, const std::string& control)
   std::_Exit(127);
 }
 
-int exit_code(pid_t child) {
+/// Its exit code; asks it to end when `stop` is set or the time is over (0: never).
+int wait_for(pid_t child, double seconds, const std::atomic<bool>& stop) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  bool asked = false;
   int status = 0;
-  ::waitpid(child, &status, 0);
+  while (::waitpid(child, &status, WNOHANG) == 0) {
+    const bool over = stop || (seconds > 0 && std::chrono::steady_clock::now() > end);
+    if (over && !std::exchange(asked, true)) ::kill(child, SIGTERM);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -72,7 +83,7 @@ int run(const RunOptions& options) {
     code = report.flaw.empty() ? 0 : 1;
     ::kill(child, SIGTERM);
   }
-  const int child_code = exit_code(child);
+  const int child_code = wait_for(child, options.seconds, stop);
   std::filesystem::remove(scene_file);
   std::filesystem::remove(options.control);
   return code != 0 ? code : child_code;
@@ -101,6 +112,7 @@ void add_run(CLI::App& app, RunOptions& options, int& code) {
   sub->add_option("--control", options.control, "file by which it is commanded")->capture_default_str();
   sub->add_option("--frames", options.max_frames, "at most so many of the log")->capture_default_str();
   sub->add_option("--transfer-ms", options.transfer_ms, "from exposure to arrival")->capture_default_str();
+  sub->add_option("--seconds", options.seconds, "end COMMAND after so long");
   sub->add_option("--drive", options.drive_seconds,
                   "be the robot's base for so many seconds too: POSE and GOAL out; then end and report");
   sub->add_option("--may-lose", options.may_lose, "frames that --drive forgives")->capture_default_str();

@@ -68,20 +68,24 @@ class CaptureTest : public testing::Test {
   std::atomic<bool> hangs = false;
 };
 
-TEST_F(CaptureTest, HandsOverWholeFramesInOrderNewestFirst) {
+TEST_F(CaptureTest, HandsOverWholeFramesInOrderAndTellsOfThoseThatWaitedTooLong) {
   const auto capture = make();
   std::atomic<int> arrived = 0;
   capture->notify([&] { ++arrived; });
   CapturedFrame frame;
   std::int64_t last = 0;
+  std::int64_t dropped = 0;
   for (int taken = 0; taken < 200;) {
     if (!capture->take(frame)) continue;
-    ++taken;
-    ASSERT_GT(frame.number, last);
+    if (++taken % 50 == 0) std::this_thread::sleep_for(20ms);
+    ASSERT_EQ(frame.number, last + 1 + frame.dropped_before);
     last = frame.number;
+    dropped += frame.dropped_before;
     for (const std::uint16_t pixel : frame.pixels) ASSERT_EQ(pixel, frame.number % 10'000);
   }
   EXPECT_GT(arrived, 0);
+  EXPECT_GT(dropped, 0);
+  EXPECT_GE(capture->status().drops["frame superseded"], dropped);
   capture->notify({});
 }
 

@@ -190,6 +190,16 @@ TEST_F(KinectFaults, ALibraryThatDoesNotComeBackIsToldAndLeftBehindAtTheEnd) {
   EXPECT_EQ(Resources::now().threads, threads_before);
 }
 
+TEST_F(KinectFaults, ADeviceWhoseOpeningDoesNotComeBackIsTold) {
+  rig.kinect().unplug();
+  ASSERT_TRUE(rig.wait_for_state(health_t::FAULT, "gone"));
+  rig.kinect()->open_hangs = 1;
+  rig.kinect().plug();
+  expect_told(health_t::FAULT, "has not come back from opening", "opening hangs, told in HEALTH", 4000);
+  rig.kinect()->open_hangs = 0;
+  expect_clouds_again("opening comes back, frames after");
+}
+
 /// As libfreenect's driver: nothing is told when the device comes or goes, and no device opens twice.
 class KinectWithoutHotplug : public KinectFaults {
  protected:

@@ -61,6 +61,7 @@ class KinectNodeTest : public testing::Test {
     source->next.stream = stream;
     source->next.pixels = std::move(pixels);
     source->next.number = number;
+    source->next.dropped_before = dropped_before;
     source->next.stamp = static_cast<std::uint64_t>(exposure);
     source->next.arrival = {exposure + 33'000, exposure + 33'000 + wall_us};
     source->has_frame = true;
@@ -97,6 +98,7 @@ class KinectNodeTest : public testing::Test {
   Outbox out{fixed_identity("kinect")};
   std::shared_ptr<const DepthStream> stream;
   std::int64_t wall_us = 1'700'000'000'000'000;
+  std::int64_t dropped_before = 0;
   Micros now{0};
 };
 
@@ -118,6 +120,16 @@ TEST_F(KinectNodeTest, FrameNumbersJumpOverWhatTheDeviceLost) {
   EXPECT_EQ(give(15)[0].frame, 6);
   EXPECT_EQ(drops("frame lost by the device"), 3);
   EXPECT_EQ(health().state, health_t::DEGRADED);
+}
+
+TEST_F(KinectNodeTest, WhatTheDriverDroppedItselfIsNotBlamedOnTheDevice) {
+  give(10);
+  dropped_before = 3;
+  EXPECT_EQ(give(14)[0].frame, 5);
+  EXPECT_EQ(drops("frame lost by the device"), 0);
+  EXPECT_EQ(health().state, health_t::OK);
+  EXPECT_EQ(give(19)[0].frame, 10);
+  EXPECT_EQ(drops("frame lost by the device"), 1);
 }
 
 TEST_F(KinectNodeTest, FrameNumbersGoOnWhereTheDeviceIsOpenedAnew) {

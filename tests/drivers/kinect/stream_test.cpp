@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "lcmtypes/depth_cloud.hpp"
 #include "tests/drivers/kinect/driver_rig.hpp"
 
 namespace floornav {
@@ -65,6 +66,30 @@ TEST(KinectStream, OffersAQuarterOfThePixels) {
   EXPECT_LT(worst_error_m(cloud, room, 2), 0.00056);
 }
 
+/// The virtual colour camera stands where the depth camera does and has a focal length of 525 px.
+TEST(KinectStream, RegisteredDepthIsWhatTheColourCameraSees) {
+  RoomScene seen_by_color;
+  seen_by_color.camera.fx = seen_by_color.camera.fy = 525;
+  DriverRig rig;
+  rig.settings.registration = true;
+  rig.start();
+  ASSERT_TRUE(rig.wait_for_clouds(3));
+  const depth_cloud_t cloud = rig.bus.clouds().back().message;
+  EXPECT_NEAR(cloud.fx, 525, 0.1F);
+  std::vector<std::uint16_t> pixels;
+  unpack_pixels(cloud, pixels);
+  int measured = 0;
+  for (int row = 0; row < 480; ++row)
+    for (int column = 200; column < 640; ++column) {
+      const double depth = pixels[static_cast<std::size_t>(row * 640 + column)] * 1e-3;
+      if (depth == 0) continue;
+      ++measured;
+      EXPECT_NEAR(depth, seen_by_color.depth_at(column, row),
+                  0.03);  // half a pixel where the floor meets the wall
+    }
+  EXPECT_GT(measured, 160'000);
+}
+
 TEST(KinectStream, SaysWhatIsOfferedWhereAModeIsNot) {
   DriverRig rig;
   rig.settings.frames_per_second = 60;
@@ -113,6 +138,23 @@ TEST(KinectStream, OpensTheOneThatIsAskedFor) {
     ASSERT_TRUE(rig.wait_for_clouds(2)) << asked;
     EXPECT_NE(rig.lines().back().find("virtual-kinect://1"), std::string::npos) << rig.lines().back();
   }
+}
+
+TEST(KinectStream, PlaysARecordingOverAndOver) {
+  const RoomScene room;
+  DriverRig rig(room);
+  const TemporaryFolder folder;
+  rig.settings.device = (folder / "room.oni").string();
+  {
+    OpenNiDevice device(KinectSettings{}, {Playback::kInRealTime, rig.settings.device});
+    device.open();
+    for (int frames = 0; frames < 12;)
+      frames += device.wait(std::chrono::seconds(1)) == DepthDevice::Event::kFrame ? 1 : 0;
+  }
+  rig.start();
+  ASSERT_TRUE(rig.wait_for_clouds(40));
+  for (const auto& cloud : rig.bus.clouds()) ASSERT_LT(worst_error_m(cloud.message, room), 0.00056);
+  EXPECT_EQ(rig.status().opened, 1);
 }
 
 TEST(KinectStream, SaysWhichThereAreWhereTheOneAskedForIsNot) {

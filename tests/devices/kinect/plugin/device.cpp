@@ -40,7 +40,9 @@ OniStatus Device::getProperty(int id, void* data, int* size) {
     case ONI_DEVICE_PROPERTY_DRIVER_VERSION:
       return answer(OniVersion{1, 0, 0, 0}, data, size);
     case ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION:
-      return answer(registration_, data, size);
+      return answer(
+          control_.registered != 0 ? ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR : ONI_IMAGE_REGISTRATION_OFF, data,
+          size);
     case ONI_DEVICE_PROPERTY_SERIAL_NUMBER: {
       std::array<char, 8> serial{};
       std::snprintf(serial.data(), serial.size(), "VK%04d", number_);
@@ -52,8 +54,11 @@ OniStatus Device::getProperty(int id, void* data, int* size) {
 }
 
 OniStatus Device::setProperty(int id, const void* data, int size) {
-  return id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION ? take(registration_, data, size)
-                                                      : ONI_STATUS_NOT_SUPPORTED;
+  if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION) return ONI_STATUS_NOT_SUPPORTED;
+  OniImageRegistrationMode wanted = ONI_IMAGE_REGISTRATION_OFF;
+  const OniStatus status = take(wanted, data, size);
+  if (status == ONI_STATUS_OK) control_.registered = wanted == ONI_IMAGE_REGISTRATION_OFF ? 0 : 1;
+  return status;
 }
 
 OniBool Device::isImageRegistrationModeSupported(OniImageRegistrationMode mode) {

@@ -30,7 +30,6 @@ class Device final : public oni::driver::DeviceBase {
   std::vector<OniVideoMode> depth_modes_;
   std::vector<OniVideoMode> color_modes_;
   std::array<OniSensorInfo, 2> sensors_;
-  OniImageRegistrationMode registration_ = ONI_IMAGE_REGISTRATION_OFF;
 };
 
 }  // namespace floornav

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace floornav {
 namespace {
@@ -110,19 +111,43 @@ void Stream::fill_depth(OniFrame& frame, std::int64_t step) {
   if (control_.frozen != 0 && frozen_step_ < 0) frozen_step_ = step;
   if (control_.frozen == 0) frozen_step_ = -1;
   const std::span<const std::uint16_t> seen = scene_.frame_at(frozen_step_ < 0 ? step : frozen_step_);
-  const int skip = scene_.header().width / frame.width;
   const std::int64_t count_um = mode_.pixelFormat == ONI_PIXEL_FORMAT_DEPTH_100_UM ? 100 : 1000;
   const std::int64_t seen_um = control_.black != 0 ? 0 : scene_.header().count_um;
   const bool mirrored = mirrored_ != 0 || control_.only_mirrored != 0;
   auto* out = static_cast<std::uint16_t*>(frame.data);
   for (int row = 0; row < frame.height; ++row) {
-    const std::uint16_t* in = seen.data() + std::ptrdiff_t{row} * skip * scene_.header().width;
+    const int from_row = seen_row(frame, row);
+    const std::uint16_t* in = seen.data() + std::ptrdiff_t{std::max(0, from_row)} * scene_.header().width;
     for (int column = 0; column < frame.width; ++column) {
-      const std::int64_t counts = (in[column * skip] * seen_um + count_um / 2) / count_um;
+      const int from_column = seen_column(frame, column);
+      const std::int64_t depth = from_row < 0 || from_column < 0 ? 0 : in[from_column];
+      const std::int64_t counts = (depth * seen_um + count_um / 2) / count_um;
       const int to = mirrored ? frame.width - 1 - column : column;
       out[row * frame.width + to] = static_cast<std::uint16_t>(counts > 65535 ? 0 : counts);
     }
   }
+}
+
+namespace {
+
+/// The pixel of the depth camera that the colour camera sees in `at` of `size` pixels, both standing in the
+/// same place; -1: none.
+int seen_from_color(int at, int size, double wider) {
+  const double center = (size - 1) / 2.0;
+  const long from = std::lround(center + (at - center) * wider);
+  return from >= 0 && from < size ? static_cast<int>(from) : -1;
+}
+
+}  // namespace
+
+int Stream::seen_column(const OniFrame& frame, int column) const {
+  const int at = column * (scene_.header().width / frame.width);
+  return control_.registered == 0 ? at : seen_from_color(at, scene_.header().width, kColorIsWider);
+}
+
+int Stream::seen_row(const OniFrame& frame, int row) const {
+  const int at = row * (scene_.header().height / frame.height);
+  return control_.registered == 0 ? at : seen_from_color(at, scene_.header().height, kColorIsWider);
 }
 
 void Stream::fill_color(OniFrame& frame, std::int64_t step) {
@@ -163,6 +188,11 @@ std::uint64_t Stream::clock_at(std::int64_t monotonic_us) const {
   return control_.clock_60_mhz != 0 ? us * 60 & 0xFFFFFFFFU : us;
 }
 
+float Stream::field_of_view(float of_depth_rad) const {
+  if (type_ == ONI_SENSOR_DEPTH) return of_depth_rad;
+  return static_cast<float>(2 * std::atan(std::tan(static_cast<double>(of_depth_rad) / 2) * kColorIsWider));
+}
+
 OniBool Stream::isPropertySupported(int id) {
   switch (id) {
     case ONI_STREAM_PROPERTY_VIDEO_MODE:
@@ -187,9 +217,9 @@ OniStatus Stream::getProperty(int id, void* data, int* size) {
     case ONI_STREAM_PROPERTY_VIDEO_MODE:
       return answer(mode_, data, size);
     case ONI_STREAM_PROPERTY_HORIZONTAL_FOV:
-      return answer(scene_.header().horizontal_fov_rad, data, size);
+      return answer(field_of_view(scene_.header().horizontal_fov_rad), data, size);
     case ONI_STREAM_PROPERTY_VERTICAL_FOV:
-      return answer(scene_.header().vertical_fov_rad, data, size);
+      return answer(field_of_view(scene_.header().vertical_fov_rad), data, size);
     case ONI_STREAM_PROPERTY_STRIDE:
       return answer(mode_.resolutionX * bytes_per_pixel(), data, size);
     case ONI_STREAM_PROPERTY_CROPPING:  // without it a recording has no frames

@@ -34,11 +34,17 @@ class Stream final : public oni::driver::StreamBase {
   void play();
   void raise(std::int64_t step, std::int64_t exposure_us);
   void fill_depth(OniFrame& frame, std::int64_t step);
+  [[nodiscard]] int seen_column(const OniFrame& frame, int column) const;
+  [[nodiscard]] int seen_row(const OniFrame& frame, int row) const;
   void fill_color(OniFrame& frame, std::int64_t step);
   void spoil(OniFrame& frame);
   [[nodiscard]] bool unplugged() const;
+  [[nodiscard]] float field_of_view(float of_depth_rad) const;
   [[nodiscard]] std::uint64_t clock_at(std::int64_t monotonic_us) const;
   [[nodiscard]] int bytes_per_pixel() const { return type_ == ONI_SENSOR_DEPTH ? 2 : 3; }
+
+  /// Focal length of the depth camera in the colour camera's: a Kinect's colour camera sees more.
+  static constexpr double kColorIsWider = 575.8 / 525.0;
 
   const OniSensorType type_;
   const int device_;
