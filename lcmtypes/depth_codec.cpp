@@ -1,6 +1,7 @@
 #include "lcmtypes/depth_codec.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 
@@ -43,37 +44,62 @@ std::int32_t unfold(std::uint32_t number) {
   return static_cast<std::int32_t>(number >> 1) ^ -static_cast<std::int32_t>(number & 1);
 }
 
+/// The nibbles of a number as the stream has them, first nibble highest.
+struct Chain {
+  std::uint32_t nibbles = 0;
+  std::uint32_t bits = 0;
+};
+
+Chain chain_of(std::uint32_t number) {
+  const auto count = std::max(1U, (static_cast<std::uint32_t>(std::bit_width(number)) + 2) / 3);
+  const std::uint64_t followed = (std::uint64_t{1} << (4 * (count - 1))) - 1;
+  const auto chain = static_cast<std::uint32_t>(spread(number) | (kChainBits & followed));
+  return {reverse_nibbles(chain) >> (32 - 4 * count), 4 * count};
+}
+
+/// Chains of the numbers that nearly all differences are.
+const std::array<Chain, 1024>& short_chains() {
+  static const std::array<Chain, 1024> kChains = [] {
+    std::array<Chain, 1024> chains;
+    for (std::uint32_t number = 0; number < chains.size(); ++number) chains[number] = chain_of(number);
+    return chains;
+  }();
+  return kChains;
+}
+
 class NibbleWriter {
  public:
   explicit NibbleWriter(std::uint8_t* out) : out_(out) {}
 
   void write(std::uint32_t number) {
-    const auto nibbles = std::max(1U, (static_cast<std::uint32_t>(std::bit_width(number)) + 2) / 3);
-    const std::uint64_t followed = (std::uint64_t{1} << (4 * (nibbles - 1))) - 1;
-    pending_ |= (spread(number) | (kChainBits & followed)) << bits_;
-    bits_ += 4 * nibbles;
-    if (bits_ >= 32) {
-      put_word();
-      bits_ -= 32;
-    }
+    const Chain chain = number < short_chains_.size() ? short_chains_[number] : chain_of(number);
+    pending_ = pending_ << chain.bits | chain.nibbles;
+    bits_ += chain.bits;
+    put_word();  // a whole one or not: whether one is ready is hard to predict
+    out_ += 4 * (bits_ / 32);
+    bits_ %= 32;
   }
 
   /// Fills the last word with zeros; returns the end of what was written.
   std::uint8_t* finish() {
-    if (bits_ > 0) put_word();
-    return out_;
+    if (bits_ == 0) return out_;
+    pending_ <<= 32 - bits_;
+    bits_ = 32;
+    put_word();
+    return out_ + 4;
   }
 
  private:
+  /// The 32 bits above those that remain.
   void put_word() {
-    const std::uint32_t word = reverse_nibbles(static_cast<std::uint32_t>(pending_));
-    for (int byte = 0; byte < 4; ++byte) *out_++ = static_cast<std::uint8_t>(word >> (8 * byte));
-    pending_ >>= 32;
+    const auto word = static_cast<std::uint32_t>(pending_ >> (bits_ % 32));
+    for (int byte = 0; byte < 4; ++byte) out_[byte] = static_cast<std::uint8_t>(word >> (8 * byte));
   }
 
+  const std::array<Chain, 1024>& short_chains_ = short_chains();
   std::uint8_t* out_;
-  std::uint64_t pending_ = 0;  // first nibble lowest
-  std::uint32_t bits_ = 0;     // of pending_, below 32 between calls
+  std::uint64_t pending_ = 0;  // the lowest bits_ bits, last nibble lowest; what is above was written
+  std::uint32_t bits_ = 0;     // below 32 between calls
 };
 
 class NibbleReader {

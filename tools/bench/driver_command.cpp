@@ -15,10 +15,12 @@
 #include <nlohmann/json.hpp>
 
 #include "drivers/kinect/node/capture.hpp"
+#include "drivers/kinect/node/cloud_message.hpp"
 #include "drivers/kinect/node/kinect_node.hpp"
 #include "drivers/kinect/node/openni_device.hpp"
 #include "runtime/process/lcm_transport.hpp"
 #include "runtime/process/live_executor.hpp"
+#include "tools/bench/strip_cost.hpp"
 
 namespace floornav {
 namespace {
@@ -30,32 +32,29 @@ struct Options {
   bool json = false;
 };
 
-/// When each frame's call from OpenNI2 came back, for whoever publishes it.
-class ArrivalProbe final : public DepthDevice {
+/// Notes when the frame arrived that the node takes, for the bus that its message then goes to.
+class TimedSource final : public FrameSource {
  public:
-  explicit ArrivalProbe(std::unique_ptr<DepthDevice> device) : device_(std::move(device)) {}
+  explicit TimedSource(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
 
-  bool listed() override { return device_->listed(); }
-  DepthStream open() override { return device_->open(); }
-  Event wait(std::chrono::milliseconds timeout) override { return device_->wait(timeout); }
-  DeviceFrame frame() override { return device_->frame(); }
-  HostTime arrival() override {
-    arrival_us = device_->arrival().monotonic_us;
-    return device_->arrival();
+  bool take(CapturedFrame& frame) override {
+    const bool taken = source_->take(frame);
+    if (taken) arrival_us = frame.arrival.monotonic_us;
+    return taken;
   }
-  void close() override { device_->close(); }
-  void restart() override { device_->restart(); }
-  std::string absence() override { return device_->absence(); }
+  [[nodiscard]] CaptureStatus status() const override { return source_->status(); }
+  void notify(std::function<void()> arrived) override { source_->notify(std::move(arrived)); }
 
-  static inline std::atomic<std::int64_t> arrival_us = 0;
+  std::int64_t arrival_us = 0;
 
  private:
-  std::unique_ptr<DepthDevice> device_;
+  std::unique_ptr<FrameSource> source_;
 };
 
 /// Publishes, and notes how long each cloud took from its frame's arrival until the bus had it.
 class TimedBus final : public Transport {
  public:
+  /// `source` is set before anything is published.
   TimedBus(const std::string& url, const std::string& channel) : bus_(url), channel_(channel) {}
 
   void subscribe(const std::string&) override {}
@@ -65,7 +64,7 @@ class TimedBus final : public Transport {
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
     const std::int64_t us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
     const std::scoped_lock lock(mutex_);
-    latency_ms_.push_back(static_cast<double>(us - ArrivalProbe::arrival_us) * 1e-3);
+    latency_ms_.push_back(static_cast<double>(us - source->arrival_us) * 1e-3);
     bytes_ += message.bytes.size();
     return sent;
   }
@@ -82,6 +81,8 @@ class TimedBus final : public Transport {
     return bytes_;
   }
 
+  const TimedSource* source = nullptr;
+
  private:
   LcmTransport bus_;
   std::string channel_;
@@ -97,11 +98,19 @@ double cpu_ms(clockid_t clock) {
   return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
-/// What the library costs by itself: the same frames waited for and thrown away.
-double library_ms_per_frame(const KinectSettings& settings, int frames) {
+/// What the library costs by itself: the same frames waited for and thrown away. Some of them are kept in
+/// `samples` before.
+double library_ms_per_frame(const KinectSettings& settings, int frames, FrameSamples& samples) {
+  constexpr std::size_t kSamples = 30;
   OpenNiDevice device(settings);
-  device.open();
-  while (device.wait(std::chrono::seconds(2)) == DepthDevice::Event::kNothing) {
+  const DepthStream stream = device.open();
+  samples.cloud = cloud_of(stream, settings);
+  while (samples.images.size() < kSamples) {
+    if (device.wait(std::chrono::seconds(2)) != DepthDevice::Event::kFrame)
+      throw DeviceError("the device sends no frames");
+    std::vector<std::uint16_t> pixels;
+    if (copy_depths(device.frame(), stream.shape, pixels) == FrameFlaw::kNone)
+      samples.images.push_back(pixels);
   }
   const double before = cpu_ms(CLOCK_PROCESS_CPUTIME_ID);
   for (int frame = 0; frame < frames;) switch (device.wait(std::chrono::seconds(2))) {
@@ -121,16 +130,19 @@ struct DriverCost {
   double library_ms_per_frame = 0;  ///< of which OpenNI2 and the device's driver
   std::vector<double> latency_ms;   ///< sorted
   double bytes_per_frame = 0;
+  StripCost strips;
 };
 
 DriverCost measure(const Options& options) {
   DriverCost cost;
-  cost.library_ms_per_frame = library_ms_per_frame(options.kinect, options.frames);
+  FrameSamples samples;
+  cost.library_ms_per_frame = library_ms_per_frame(options.kinect, options.frames, samples);
+  cost.strips = measure_strips(samples);
   TimedBus bus(options.lcm_url, options.kinect.channel);
-  auto device = std::make_unique<ArrivalProbe>(std::make_unique<OpenNiDevice>(options.kinect));
-  auto capture =
-      std::make_unique<Capture>(std::move(device), periods_of(options.kinect), [](const std::string&) {});
-  KinectNode node(options.kinect, std::move(capture), [] {});
+  auto source = std::make_unique<TimedSource>(std::make_unique<Capture>(
+      std::make_unique<OpenNiDevice>(options.kinect), periods_of(options.kinect), [](const std::string&) {}));
+  bus.source = source.get();
+  KinectNode node(options.kinect, std::move(source), [] {});
   LiveExecutor executor(node, bus, {});
   std::atomic<bool> stop = false;
   std::jthread worker([&] { executor.run(stop); });
@@ -172,7 +184,11 @@ void print(const DriverCost& cost, bool json) {
                                 {"median_ms", percentile(0.5)},
                                 {"p99_ms", percentile(0.99)},
                                 {"max_ms", percentile(1)},
-                                {"bytes", cost.bytes_per_frame}};
+                                {"bytes", cost.bytes_per_frame},
+                                {"strips",
+                                 {{"whole_ms", cost.strips.whole_ms},
+                                  {"near_ms", cost.strips.near_ms},
+                                  {"all_ms", cost.strips.all_ms}}}};
     fmt::print("{}\n", out.dump());
     return;
   }
@@ -181,6 +197,11 @@ void print(const DriverCost& cost, bool json) {
              cost.library_ms_per_frame);
   fmt::print("frame's arrival to published message: median {:.2f} ms, p99 {:.2f} ms, max {:.2f} ms\n",
              percentile(0.5), percentile(0.99), percentile(1));
+  fmt::print(
+      "a frame's pixels packed, sent and unpacked again: {:.2f} ms of CPU; in {} strips {:.2f} ms, of which "
+      "the "
+      "nearest, sent first, {:.2f} ms\n",
+      cost.strips.whole_ms, kStrips, cost.strips.all_ms, cost.strips.near_ms);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <vector>
 
 namespace floornav {
 namespace {
@@ -114,12 +115,14 @@ void Stream::fill_depth(OniFrame& frame, std::int64_t step) {
   const std::int64_t count_um = mode_.pixelFormat == ONI_PIXEL_FORMAT_DEPTH_100_UM ? 100 : 1000;
   const std::int64_t seen_um = control_.black != 0 ? 0 : scene_.header().count_um;
   const bool mirrored = mirrored_ != 0 || control_.only_mirrored != 0;
+  std::vector<int> from_columns;
+  for (int column = 0; column < frame.width; ++column) from_columns.push_back(seen_column(frame, column));
   auto* out = static_cast<std::uint16_t*>(frame.data);
   for (int row = 0; row < frame.height; ++row) {
     const int from_row = seen_row(frame, row);
     const std::uint16_t* in = seen.data() + std::ptrdiff_t{std::max(0, from_row)} * scene_.header().width;
     for (int column = 0; column < frame.width; ++column) {
-      const int from_column = seen_column(frame, column);
+      const int from_column = from_columns[static_cast<std::size_t>(column)];
       const std::int64_t depth = from_row < 0 || from_column < 0 ? 0 : in[from_column];
       const std::int64_t counts = (depth * seen_um + count_um / 2) / count_um;
       const int to = mirrored ? frame.width - 1 - column : column;
