@@ -67,6 +67,7 @@ void PlanningGrid::start_afresh(const GridMap& map, const CellRect& needed, cons
     throw std::invalid_argument("the map and the way to the goal take more than " +
                                 std::to_string(kMaxCells) + " cells");
   search_.steps = kWeightedSteps;
+  search_.whole_squares = true;
   const auto cells = static_cast<std::size_t>(search_.width) * static_cast<std::size_t>(search_.height);
   floor_.assign(cells, static_cast<std::uint8_t>(Floor::kUnknown));
   map_edges_.assign(cells, 0xFF);

@@ -2,9 +2,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "planner/search/bucket_queue.hpp"
+#include "planner/search/search_cells.hpp"
 #include "planner/search/search_grid.hpp"
 
 namespace floornav {
@@ -21,12 +24,15 @@ class AStar {
  public:
   static constexpr std::int64_t kExpansionsBetweenInterrupts = 1024;
 
+  explicit AStar(std::shared_ptr<SearchCells> cells = std::make_shared<SearchCells>())
+      : cells_(std::move(cells)) {}
+
   /// Searches from start to goal, both on the grid. `interrupt` may be empty.
   SearchOutcome search(const SearchGrid& grid, GridCell start, GridCell goal,
                        const Interrupt& interrupt = {});
 
-  /// Of the last search: the least cost of a cell that it settled, kUnreached of another. After kNoPath every
-  /// cell that can be reached is settled.
+  /// Of the last search with these cells: the least cost of one that it settled, kUnreached of another. After
+  /// kNoPath every cell that can be reached is settled.
   [[nodiscard]] std::uint32_t cost_of(GridCell cell) const;
   /// Of the last search: the cells from its start to a settled one, both included. Replaces what `path`
   /// holds.
@@ -37,23 +43,16 @@ class AStar {
   static constexpr std::uint32_t kUnreached = 0xFFFFFFFF;
 
  private:
-  /// What a search knows of a cell, valid where its number is the search's: nothing is cleared between
-  /// searches.
-  struct Node {
-    std::uint32_t cost;
-    std::uint32_t search : 28;
-    std::uint32_t settled : 1;
-    std::uint32_t from : 3;  ///< the step that led here
-  };
+  /// A cell's value is its cost so far. In its tag: the steps that lead to it at that cost, a bit each, and
+  /// whether it was expanded since the last of them came.
+  static constexpr std::uint32_t kFrom = 0xFF;
+  static constexpr std::uint32_t kSettled = 0x100;
 
-  void prepare(const SearchGrid& grid);
-  template <bool kWeighted>
+  template <bool kWeighted, bool kCanonical>
   SearchOutcome run(const SearchGrid& grid, GridCell start, GridCell goal, const Interrupt& interrupt);
 
   BucketQueue queue_;
-  std::vector<Node> nodes_;
-  std::uint32_t number_ = 0;  ///< of the search
-  std::int32_t width_ = 0;
+  std::shared_ptr<SearchCells> cells_;
   GridCell start_;
   std::int64_t expanded_ = 0;
 };

@@ -41,6 +41,9 @@ struct SearchGrid {
   std::int32_t width = 0;
   std::int32_t height = 0;
   StepCosts steps = kExactSteps;
+  /// Every edge is open both ways or none, and every open diagonal lies in a square whose four sides are
+  /// open: a search may leave out steps that such squares make needless.
+  bool whole_squares = false;
   std::vector<std::uint8_t> edges;  ///< bit k: the step to neighbour k is open; none may lead off the grid
   std::vector<std::uint8_t>
       weights;  ///< empty: all 0. A step costs 1 + mean weight of its two cells / kWeightUnit

@@ -52,6 +52,7 @@ SearchGrid grid_of(const RandomCells& r) {
   grid.width = r.width;
   grid.height = r.height;
   grid.edges = edges_of_passable(r.passable, r.width, r.height);
+  grid.whole_squares = true;
   return grid;
 }
 

@@ -48,6 +48,7 @@ SearchGrid read_movingai_map(const std::filesystem::path& file) {
     for (const char c : row) passable.push_back(c == '.' || c == 'G' || c == 'S');
   }
   grid.edges = edges_of_passable(passable, grid.width, grid.height);
+  grid.whole_squares = true;
   return grid;
 }
 
