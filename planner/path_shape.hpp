@@ -5,6 +5,7 @@
 #include "mapping/grid_map.hpp"
 #include "planner/plan.hpp"
 #include "planner/planning_grid.hpp"
+#include "runtime/geometry/robot.hpp"
 
 namespace floornav {
 
@@ -12,12 +13,14 @@ namespace floornav {
 struct DrivablePath {
   std::vector<PathPoint> points;
   double length_m = 0;
+  std::size_t way_out_points = 0;
   bool whole = false;  ///< it leads to the route's end
 };
 
-/// Follows the route as far as the robot's circle touches known free (or assumed) floor only. Points lie no
-/// more than `spacing_m` apart. `z_m`: height of the floor where the map knows none before the first point.
-DrivablePath drivable_path(const PlanningGrid& grid, const GridMap& map, const Route& route, double spacing_m,
-                           double z_m);
+/// Follows the route as far as the robot's circle touches known free (or assumed) floor only, and rounds its
+/// corners as far as there is room. Points lie no more than `spacing_m` apart. `z_m`: height of the floor
+/// where the map knows none before the first point.
+DrivablePath drivable_path(const PlanningGrid& grid, const GridMap& map, const Route& route,
+                           const RobotSettings& robot, double spacing_m, double z_m);
 
 }  // namespace floornav

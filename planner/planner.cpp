@@ -9,6 +9,7 @@
 #include "planner/known_line.hpp"
 #include "planner/path_shape.hpp"
 #include "planner/speed_profile.hpp"
+#include "planner/way_out.hpp"
 
 namespace floornav {
 namespace {
@@ -17,8 +18,11 @@ namespace {
 constexpr double kEndCells = 0.75;
 /// The goal counts as reached from here on: it covers the cell in which a way may end.
 constexpr double kReachedCells = 1.5;
-/// A robot that strays from a path along an obstacle starts from a cell this near where it fits.
-constexpr double kStartCells = 2.0;
+/// Beyond its own radius a robot that does not fit where it stands looks this far for a place where it does.
+constexpr double kWayOut_m = 0.3;
+/// Jump points that the quick search after an interrupt may expand, some milliseconds' worth, in looks at its
+/// interrupt.
+constexpr int kLooksOfQuickSearch = 200;
 
 std::string in_metres(double value) {
   std::array<char, 32> text{};
@@ -78,13 +82,14 @@ Plan Planner::plan(const GridMap& map, const Pose& T_world_body, const Goal& goa
   plan.map_epoch = map.epoch;
   plan.map_version = map.version;
   if (plan.route.corners.empty()) return plan;
-  DrivablePath path =
-      drivable_path(grid_, map, plan.route, settings_.point_spacing_m, T_world_body.translation().z());
+  DrivablePath path = drivable_path(grid_, map, plan.route, robot_, settings_.point_spacing_m,
+                                    T_world_body.translation().z());
   set_speeds(path.points, settings_, robot_);
   plan.points = std::move(path.points);
+  plan.way_out_points = path.way_out_points;
   plan.length_m = path.length_m;
   plan.status = path.whole ? PlanStatus::kFollowing : PlanStatus::kFrontier;
-  if (!path.whole) plan.reason = "the floor ahead was not seen yet";
+  if (!path.whole && plan.reason.empty()) plan.reason = "the floor ahead was not seen yet";
   return plan;
 }
 
@@ -128,44 +133,64 @@ void Planner::bring_up_to_date(const GridMap& map, const Pose& T_world_body, con
   const CellRect farthest = around(here.x(), here.y(), settings_.max_distance_m + margin_m);
   seen = seen.clipped(farthest);
   if (!seen.empty()) seen = seen.grown(margin);
-  grid_.update(map, seen.joined(ends).clipped(farthest), *assumed_);
+  grid_.update(map, seen.joined(ends).clipped(farthest), *assumed_,
+               {here.x(), here.y(), robot_.radius_m + lattice.pitch_m});
 }
 
 Plan Planner::search(const Pose& T_world_body, const Goal& goal, const Plan* previous,
                      const Interrupt& interrupt) {
-  const GridPoint here = grid_.point_of(T_world_body.translation().x(), T_world_body.translation().y());
-  const std::optional<GridCell> start = start_near(here);
-  if (!start) {
-    const GridCell cell = grid_.cell_of(T_world_body.translation().x(), T_world_body.translation().y());
-    return refusal(PlanStatus::kStartBlocked,
-                   "an obstacle is " + in_metres(grid_.obstacle_clearance_m(cell)) +
-                       " from the robot's centre, its radius is " + in_metres(robot_.radius_m));
-  }
+  const std::optional<Start> start = start_at(T_world_body);
+  if (!start) return refusal(PlanStatus::kStartBlocked, why_start_is_blocked(T_world_body));
   std::optional<GridCell> target = nearest_to_goal(goal, false);
   if (!target) {
     return refusal(PlanStatus::kGoalBlocked,
                    "no room for the robot within " + in_metres(goal.tolerance_m) + " of the goal");
   }
-  const SearchOutcome outcome = a_star_.search(grid_.search_grid(), *start, *target, interrupt);
-  auto kept = previous != nullptr ? route_ahead(*previous, here) : std::nullopt;
+  const GridCell from = start->way.back();
+  const BitGrid* const whole = grid_.no_cell_parted() ? &grid_.open_cells() : nullptr;
+  const SearchOutcome outcome = search_.search(grid_.search_grid(), whole, from, *target, interrupt);
+  auto kept = previous != nullptr ? route_ahead(*previous, *start) : std::nullopt;
   Plan plan;
-  plan.route.origin = grid_.origin();
   if (outcome == SearchOutcome::kInterrupted) {
-    if (!kept) return refusal(PlanStatus::kInterrupted, "the search took too long");
-    plan.route.corners = *std::move(kept);
+    if (kept) {
+      plan.route = *std::move(kept);
+    } else if (shortest_way(from, *target)) {
+      plan.route = route_of_cells(*start, goal);
+      plan.reason = "out of time: the shortest way, not the cheapest";
+    } else {
+      return refusal(PlanStatus::kInterrupted, "the search took too long");
+    }
     return plan;
   }
-  if (outcome == SearchOutcome::kNoPath) target = nearest_to_goal(goal, true);
-  if (!target) {
-    return refusal(PlanStatus::kNoPath,
-                   "obstacles shut off all within " + in_metres(goal.tolerance_m) + " of the goal");
+  if (outcome == SearchOutcome::kNoPath) {
+    target = nearest_to_goal(goal, true);
+    if (!target)
+      return refusal(PlanStatus::kNoPath,
+                     "obstacles shut off all within " + in_metres(goal.tolerance_m) + " of the goal");
+    search_.path_to(*target, cells_);
+  } else {
+    search_.path(cells_);
   }
-  plan.route.corners = route_to(here, *target, goal);
-  if (kept && distance(kept->back(), plan.route.corners.back()) < kEndCells &&
-      route_cost(grid_.search_grid(), *kept) <=
-          settings_.keep_path_ratio * route_cost(grid_.search_grid(), plan.route.corners))
-    plan.route.corners = *std::move(kept);
+  plan.route = route_of_cells(*start, goal);
+  if (kept && !clearly_better(plan.route, *kept, heading_of(T_world_body))) plan.route = *std::move(kept);
   return plan;
+}
+
+/// Better late than never: when there was no time for the cheapest way.
+bool Planner::shortest_way(GridCell start, GridCell target) {
+  int looks = 0;
+  if (search_.shortest(grid_.open_cells(), start, target, [&] { return ++looks > kLooksOfQuickSearch; }) !=
+      SearchOutcome::kFound)
+    return false;
+  search_.path(cells_);
+  return true;
+}
+
+bool Planner::clearly_better(const Route& next, const Route& kept, double heading_rad) const {
+  if (distance(kept.corners.back(), next.corners.back()) >= kEndCells) return true;
+  const double turn_cost = settings_.turn_cost / grid_.pitch_m();
+  return route_cost(grid_.search_grid(), kept, heading_rad, turn_cost) >
+         settings_.keep_path_ratio * route_cost(grid_.search_grid(), next, heading_rad, turn_cost);
 }
 
 bool Planner::holds(const Plan& plan, const GridMap& map, const Pose& T_world_body, const Goal& goal) {
@@ -175,52 +200,75 @@ bool Planner::holds(const Plan& plan, const GridMap& map, const Pose& T_world_bo
   } catch (const std::invalid_argument&) {
     return false;
   }
-  const auto here = T_world_body.translation();
-  return route_ahead(plan, grid_.point_of(here.x(), here.y())).has_value();
+  const std::optional<Start> start = start_at(T_world_body);
+  return start && route_ahead(plan, *start).has_value();
 }
 
-/// The cell to start from: the robot's own, or the nearest one where its circle fits.
-std::optional<GridCell> Planner::start_near(GridPoint here) const {
-  return nearest_cell(grid_.search_grid(), here, kStartCells, [&](GridCell c) { return grid_.passable(c); });
+std::optional<Planner::Start> Planner::start_at(const Pose& T_world_body) const {
+  const auto here = T_world_body.translation();
+  auto way = way_out(grid_, grid_.cell_of(here.x(), here.y()), robot_.radius_m + kWayOut_m);
+  if (!way) return std::nullopt;
+  return Start{grid_.point_of(here.x(), here.y()), *std::move(way)};
+}
+
+std::string Planner::why_start_is_blocked(const Pose& T_world_body) const {
+  const GridCell cell = grid_.cell_of(T_world_body.translation().x(), T_world_body.translation().y());
+  const double clearance_m = grid_.obstacle_clearance_m(cell);
+  if (clearance_m >= robot_.radius_m) return "a closed edge lies under the robot, and no way leads off it";
+  return "an obstacle is " + in_metres(clearance_m) + " from the robot's centre, its radius is " +
+         in_metres(robot_.radius_m) + ", and no way leads off";
 }
 
 /// The cell nearest to the goal, within its tolerance, where the robot fits; of those that the last search
-/// settled where `settled` asks for it.
-std::optional<GridCell> Planner::nearest_to_goal(const Goal& goal, bool settled) const {
+/// reached where `reached` asks for it.
+std::optional<GridCell> Planner::nearest_to_goal(const Goal& goal, bool reached) const {
   const double reach = std::max(goal.tolerance_m / grid_.pitch_m(), kEndCells);
-  return nearest_cell(grid_.search_grid(), grid_.point_of(goal.x_m, goal.y_m), reach, [&](GridCell c) {
-    return settled ? a_star_.cost_of(c) != AStar::kUnreached : grid_.passable(c);
-  });
+  return nearest_cell(grid_.search_grid(), grid_.point_of(goal.x_m, goal.y_m), reach,
+                      [&](GridCell c) { return reached ? search_.reached(c) : grid_.passable(c); });
 }
 
-/// The last search's way to `target`, with the robot's and the goal's own places at its ends where they lie
+/// Goes before a route's corners what leads there from where the robot stands.
+Route Planner::with_way_out(const Start& start, std::vector<GridPoint> corners) const {
+  Route route{grid_.origin(), {}, 0};
+  if (start.way.size() > 1) {
+    route.corners.push_back(start.here);
+    for (std::size_t i = 1; i + 1 < start.way.size(); ++i) {
+      const GridCell a = start.way[i - 1], b = start.way[i], c = start.way[i + 1];
+      if (b.x - a.x != c.x - b.x || b.y - a.y != c.y - b.y) route.corners.push_back(centre(b));
+    }
+    route.way_out = route.corners.size();
+  }
+  route.corners.insert(route.corners.end(), corners.begin(), corners.end());
+  return route;
+}
+
+/// The way that the last search found, with the robot's and the goal's own places at its ends where they lie
 /// in the open.
-std::vector<GridPoint> Planner::route_to(GridPoint here, GridCell target, const Goal& goal) {
-  a_star_.path_to(target, cells_);
+Route Planner::route_of_cells(const Start& start, const Goal& goal) const {
   std::vector<GridPoint> corners = shorten(grid_, cells_);
-  if (corners.size() < 2) return corners;
   const auto replace = [&](GridPoint& corner, GridPoint place, GridPoint neighbour) {
     const bool stays_known =
         known_free_part(grid_, place, neighbour) == 1.0 || known_free_part(grid_, corner, neighbour) < 1.0;
     if (stays_known && line_open(grid_.search_grid(), place, neighbour)) corner = place;
   };
-  replace(corners.front(), here, corners[1]);
-  const GridPoint end = grid_.point_of(goal.x_m, goal.y_m);
-  if (distance(end, corners.back()) <= kEndCells) replace(corners.back(), end, corners[corners.size() - 2]);
-  return corners;
+  if (corners.size() > 1) {
+    if (start.way.size() == 1) replace(corners.front(), start.here, corners[1]);
+    const GridPoint end = grid_.point_of(goal.x_m, goal.y_m);
+    if (distance(end, corners.back()) <= kEndCells) replace(corners.back(), end, corners[corners.size() - 2]);
+  }
+  return with_way_out(start, std::move(corners));
 }
 
-/// What is left of a plan's route from `here`; nothing where the robot has left it or a line of it is shut.
-std::optional<std::vector<GridPoint>> Planner::route_ahead(const Plan& plan, GridPoint here) const {
-  const SearchGrid& grid = grid_.search_grid();
-  const std::vector<GridPoint> route = moved(plan.route, grid_.origin()).corners;
-  auto corners = corners_ahead(route, here, settings_.off_path_m / grid_.pitch_m());
-  const std::optional<GridCell> start = start_near(here);
-  if (!corners || !start) return std::nullopt;
-  const bool straight = line_open(grid, here, corners->front());
-  corners->insert(corners->begin(), straight ? here : centre(*start));
-  if (!route_open(grid, *corners)) return std::nullopt;
-  return corners;
+/// What is left of a plan's route for the robot; nothing where it has left it or a line of it is shut.
+std::optional<Route> Planner::route_ahead(const Plan& plan, const Start& start) const {
+  auto corners =
+      corners_ahead(moved(plan.route, grid_.origin()), start.here, settings_.off_path_m / grid_.pitch_m());
+  if (!corners) return std::nullopt;
+  const bool straight = start.way.size() == 1 && line_open(grid_.search_grid(), start.here, corners->front());
+  corners->insert(corners->begin(), straight ? start.here : centre(start.way.back()));
+  Route route = with_way_out(start, *std::move(corners));
+  if (!route_open(grid_.search_grid(), route)) return std::nullopt;
+  return route;
 }
 
 }  // namespace floornav

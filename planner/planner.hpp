@@ -1,12 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "mapping/grid_map.hpp"
 #include "planner/plan.hpp"
 #include "planner/planning_grid.hpp"
-#include "planner/search/a_star.hpp"
+#include "planner/search/grid_search.hpp"
 #include "planner/settings.hpp"
 #include "runtime/geometry/pose.hpp"
 #include "runtime/geometry/robot.hpp"
@@ -36,18 +37,27 @@ class Planner {
 
  private:
   void bring_up_to_date(const GridMap& map, const Pose& T_world_body, const Goal& goal);
-  [[nodiscard]] std::optional<GridCell> start_near(GridPoint here) const;
-  [[nodiscard]] std::optional<GridCell> nearest_to_goal(const Goal& goal, bool settled) const;
+  /// Where the search starts: the robot's place, and the cells from there to where it fits.
+  struct Start {
+    GridPoint here;
+    std::vector<GridCell> way;
+  };
+  [[nodiscard]] std::optional<Start> start_at(const Pose& T_world_body) const;
+  [[nodiscard]] std::string why_start_is_blocked(const Pose& T_world_body) const;
+  [[nodiscard]] std::optional<GridCell> nearest_to_goal(const Goal& goal, bool reached) const;
   Plan find_route(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Plan* previous,
                   const Interrupt& interrupt);
   Plan search(const Pose& T_world_body, const Goal& goal, const Plan* previous, const Interrupt& interrupt);
-  std::vector<GridPoint> route_to(GridPoint here, GridCell target, const Goal& goal);
-  [[nodiscard]] std::optional<std::vector<GridPoint>> route_ahead(const Plan& plan, GridPoint here) const;
+  bool shortest_way(GridCell start, GridCell target);
+  [[nodiscard]] Route with_way_out(const Start& start, std::vector<GridPoint> corners) const;
+  [[nodiscard]] Route route_of_cells(const Start& start, const Goal& goal) const;
+  [[nodiscard]] std::optional<Route> route_ahead(const Plan& plan, const Start& start) const;
+  [[nodiscard]] bool clearly_better(const Route& next, const Route& kept, double heading_rad) const;
 
   PlannerSettings settings_;
   RobotSettings robot_;
   PlanningGrid grid_;
-  AStar a_star_;
+  GridSearch search_;
   std::vector<GridCell> cells_;  ///< of the last search's path
   std::optional<AssumedFloor> assumed_;
   std::int32_t epoch_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -10,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kNeverTaken = -2;
 constexpr std::int64_t kNoTile = -1;
-constexpr std::int64_t kMaxCells = 1 << 25;  ///< of some 17 bytes each
+constexpr std::int64_t kMaxCells = 1 << 25;  ///< of 16 bytes each, the searches' included
 
 std::uint8_t weight_of(double cost) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(cost * SearchGrid::kWeightUnit, 0.0, 255.0)));
@@ -26,20 +27,26 @@ std::int16_t least_gap_of(double radius_in_cells) {
 
 }  // namespace
 
-void PlanningGrid::update(const GridMap& map, const CellRect& needed, const AssumedFloor& assumed) {
+void PlanningGrid::update(const GridMap& map, const CellRect& needed, const AssumedFloor& assumed,
+                          const AssumedFloor& stands) {
   const bool same_map =
       map.lattice().pitch_m == lattice_.pitch_m && map.epoch == epoch_ && map.version >= version_;
   if (!same_map || !(assumed == assumed_) || window_.empty() || !window_.contains(needed))
     start_afresh(map, needed, assumed);
   version_ = map.version;
-  const CellRect changed = take_changed_tiles(map);
+  CellRect changed = take_changed_tiles(map);
+  changed = changed.joined(assume_floor_under(stands));
   if (changed.empty()) return;
-  blocked_gap_.update(floor_, static_cast<std::uint8_t>(Floor::kBlocked), changed);
-  open_gap_.update(floor_, static_cast<std::uint8_t>(Floor::kUnknown), changed);
   const CellRect grid{0, 0, search_.width, search_.height};
-  const CellRect within_reach = changed.grown(blocked_gap_.reach()).clipped(grid);
+  blocked_gap_.update(cells_of(kBlocked), changed);
+  find_near(kBlocked | kUnknown, kNearUnknown, least_gap_, unknown_scan_, changed);
+  find_steps(changed.grown(1).clipped(grid));
+  find_near(kAtStep, kNearStep, least_step_gap_, step_scan_, changed.grown(1).clipped(grid));
+  const CellRect within_reach =
+      changed.grown(std::max(blocked_gap_.reach(), step_scan_.reach() + 1)).clipped(grid);
   weigh(within_reach);
   open_edges(within_reach.grown(1).clipped(grid));
+  project_open_cells(within_reach.grown(2).clipped(grid));
 }
 
 void PlanningGrid::start_afresh(const GridMap& map, const CellRect& needed, const AssumedFloor& assumed) {
@@ -49,12 +56,16 @@ void PlanningGrid::start_afresh(const GridMap& map, const CellRect& needed, cons
   assumed_ = assumed;
   const double radius_in_cells = robot_.radius_m / lattice_.pitch_m;
   const auto least_reach = static_cast<std::int32_t>(std::ceil(radius_in_cells)) + 2;
-  if (least_reach > GapField::kMaxReach)
-    throw std::invalid_argument("the robot's radius is more than " + std::to_string(GapField::kMaxReach - 2) +
+  if (least_reach > GapScan::kMaxReach)
+    throw std::invalid_argument("the robot's radius is more than " + std::to_string(GapScan::kMaxReach - 2) +
                                 " cells of the map");
   const auto comfort = static_cast<std::int32_t>(std::ceil(settings_.comfort_m / lattice_.pitch_m));
-  const std::int32_t reach = std::min(least_reach + comfort, GapField::kMaxReach);
+  const std::int32_t reach = std::min(least_reach + comfort, GapScan::kMaxReach);
+  const double wheels_in_cells = 0.5 * robot_.track_m / lattice_.pitch_m;
   least_gap_ = least_gap_of(radius_in_cells);
+  least_step_gap_ = least_gap_of(std::min(wheels_in_cells, radius_in_cells));
+  unknown_scan_ = GapScan(least_reach);
+  step_scan_ = GapScan(least_reach);
 
   // Whole tiles, and one around them, so that a map that grows does not start afresh each time.
   constexpr std::int32_t kSide = GridTile::kSide;
@@ -66,24 +77,51 @@ void PlanningGrid::start_afresh(const GridMap& map, const CellRect& needed, cons
   if (std::int64_t{search_.width} * search_.height > kMaxCells)
     throw std::invalid_argument("the map and the way to the goal take more than " +
                                 std::to_string(kMaxCells) + " cells");
-  search_.steps = kWeightedSteps;
+  search_.steps = uniform() ? kExactSteps : kWeightedSteps;
   search_.whole_squares = true;
   const auto cells = static_cast<std::size_t>(search_.width) * static_cast<std::size_t>(search_.height);
-  floor_.assign(cells, static_cast<std::uint8_t>(Floor::kUnknown));
+  kinds_.assign(cells, kUnknown | kNearUnknown | kFits);
   map_edges_.assign(cells, 0xFF);
   terrain_.assign(cells, 0);
-  search_.weights.assign(cells, 0);
+  search_.weights.assign(uniform() ? 0 : cells, 0);
   search_.edges.assign(cells, 0);
+  open_cells_.reset(search_.width, search_.height);
+  parted_cells_ = 0;
   blocked_gap_.reset(search_.width, search_.height, reach);
-  open_gap_.reset(search_.width, search_.height, reach);
+  weigh_gaps();
+  tile_versions_.assign(cells / static_cast<std::size_t>(GridTile::kVertices), kNeverTaken);
+  window_ = window;
+}
+
+bool PlanningGrid::uniform() const {
+  return settings_.unknown_cost == 0 && settings_.belief_cost == 0 && settings_.slope_cost == 0 &&
+         settings_.clearance_cost == 0;
+}
+
+/// What that changed.
+CellRect PlanningGrid::assume_floor_under(const AssumedFloor& robot) {
+  const GridCell low = cell_of(robot.x_m - robot.radius_m, robot.y_m - robot.radius_m),
+                 high = cell_of(robot.x_m + robot.radius_m, robot.y_m + robot.radius_m);
+  const CellRect rect =
+      CellRect{low.x, low.y, high.x + 1, high.y + 1}.clipped({0, 0, search_.width, search_.height});
+  CellRect changed;
+  for (std::int32_t y = rect.y0; y < rect.y1; ++y) {
+    for (std::int32_t x = rect.x0; x < rect.x1; ++x) {
+      if (floor({x, y}) != Floor::kUnknown || !within(robot, x, y)) continue;
+      set_floor(search_.index({x, y}), kAssumed);
+      changed = changed.joined({x, y, x + 1, y + 1});
+    }
+  }
+  return changed;
+}
+
+void PlanningGrid::weigh_gaps() {
   const double comfort_m = std::max(settings_.comfort_m, 1e-6);
   gap_weights_.resize(static_cast<std::size_t>(blocked_gap_.cap()) + 1);
   for (std::size_t gap = 0; gap < gap_weights_.size(); ++gap) {
     const double spare_m = metres(static_cast<std::int16_t>(gap)) - robot_.radius_m;
     gap_weights_[gap] = weight_of(settings_.clearance_cost * std::clamp(1.0 - spare_m / comfort_m, 0.0, 1.0));
   }
-  tile_versions_.assign(cells / static_cast<std::size_t>(GridTile::kVertices), kNeverTaken);
-  window_ = window;
 }
 
 /// Copies the tiles that are new, changed or gone; the rectangle that holds them.
@@ -110,12 +148,12 @@ void PlanningGrid::take_tile(const GridTile* tile, std::int32_t x0, std::int32_t
       const std::size_t to = search_.index({x, y});
       const VertexState state = tile != nullptr ? tile->state[from] : VertexState::kUnknown;
       if (state == VertexState::kUnknown) {
-        floor_[to] = static_cast<std::uint8_t>(assumed_at(x, y) ? Floor::kAssumed : Floor::kUnknown);
+        set_floor(to, within(assumed_, x, y) ? kAssumed : kUnknown);
         map_edges_[to] = 0xFF;
         terrain_[to] = 0;
         continue;
       }
-      floor_[to] = static_cast<std::uint8_t>(state == VertexState::kFree ? Floor::kFree : Floor::kBlocked);
+      set_floor(to, state == VertexState::kFree ? std::uint8_t{0} : kBlocked);
       map_edges_[to] = tile->edges[from];
       const double slope_deg = static_cast<double>(GridTile::kSlopeUnit_deg) * tile->slope[from];
       const double steepness =
@@ -126,12 +164,42 @@ void PlanningGrid::take_tile(const GridTile* tile, std::int32_t x0, std::int32_t
   }
 }
 
+/// Marks free cells that a closed edge parts from another free one. Edges to what is not free are closed too,
+/// but need no mark of their own.
+void PlanningGrid::find_steps(const CellRect& rect) {
+  for (std::int32_t y = rect.y0; y < rect.y1; ++y) {
+    for (std::int32_t x = rect.x0; x < rect.x1; ++x) {
+      const std::size_t i = search_.index({x, y});
+      bool at_step = false;
+      for (std::size_t k = 0; k < 8 && floor({x, y}) == Floor::kFree; k += 2) {
+        const GridCell to{x + kStepX[k], y + kStepY[k]};
+        at_step = at_step || (search_.contains(to) && !map_edge_open(i, search_.index(to), k));
+      }
+      kinds_[i] = static_cast<std::uint8_t>(at_step ? kinds_[i] | kAtStep : kinds_[i] & ~kAtStep);
+    }
+  }
+}
+
+/// Marks the cells within the least gap of those of a kind, after a change.
+void PlanningGrid::find_near(std::uint8_t what, std::uint8_t mark, std::int16_t least_gap, GapScan& scan,
+                             const CellRect& changed) {
+  const CellRect out = changed.grown(scan.reach()).clipped({0, 0, search_.width, search_.height});
+  scan.scan(cells_of(what), out, [&](std::int32_t y, const std::int16_t* gaps) {
+    std::uint8_t* const kinds = kinds_.data() + search_.index({out.x0, y});
+    for (std::int32_t i = 0; i < out.width(); ++i)
+      kinds[i] = static_cast<std::uint8_t>(gaps[i] < least_gap ? kinds[i] | mark : kinds[i] & ~mark);
+  });
+}
+
 void PlanningGrid::weigh(const CellRect& rect) {
   const std::uint8_t unknown = weight_of(settings_.unknown_cost);
   for (std::int32_t y = rect.y0; y < rect.y1; ++y) {
     for (std::int32_t x = rect.x0; x < rect.x1; ++x) {
       const std::size_t i = search_.index({x, y});
-      const unsigned unseen = open_gap_[i] < least_gap_ ? unknown : 0U;
+      const bool fits = blocked_gap_[i] >= least_gap_ && (kinds_[i] & kNearStep) == 0;
+      kinds_[i] = static_cast<std::uint8_t>(fits ? kinds_[i] | kFits : kinds_[i] & ~kFits);
+      if (search_.weights.empty()) continue;
+      const unsigned unseen = (kinds_[i] & kNearUnknown) != 0 ? unknown : 0U;
       const unsigned near_obstacle = gap_weights_[static_cast<std::size_t>(blocked_gap_[i])];
       search_.weights[i] = static_cast<std::uint8_t>(std::min(255U, terrain_[i] + unseen + near_obstacle));
     }
@@ -143,36 +211,80 @@ void PlanningGrid::open_edges(const CellRect& rect) {
     for (std::int32_t x = rect.x0; x < rect.x1; ++x) search_.edges[search_.index({x, y})] = edges_at(x, y);
 }
 
-/// Both cells have room for the robot, and the map does not close the edge between them. It knows edges only
-/// between cells that were seen.
-bool PlanningGrid::link_open(std::size_t from, std::size_t to, std::size_t k) const {
-  if (blocked_gap_[from] < least_gap_ || blocked_gap_[to] < least_gap_) return false;
-  if (floor_[from] != static_cast<std::uint8_t>(Floor::kFree) ||
-      floor_[to] != static_cast<std::uint8_t>(Floor::kFree))
-    return true;
+void PlanningGrid::project_open_cells(const CellRect& rect) {
+  for (std::int32_t y = rect.y0; y < rect.y1; ++y) {
+    for (std::int32_t x = rect.x0; x < rect.x1; ++x) {
+      std::uint8_t& kind = kinds_[search_.index({x, y})];
+      const bool parted = search_.edges[search_.index({x, y})] != 0 && !in_the_open(search_, {x, y});
+      parted_cells_ += (parted ? 1 : 0) - ((kind & kParted) != 0 ? 1 : 0);
+      kind = static_cast<std::uint8_t>(parted ? kind | kParted : kind & ~kParted);
+    }
+  }
+  const auto is_open = [&](GridCell cell) {
+    return search_.edges[search_.index(cell)] != 0 && (kinds_[search_.index(cell)] & kParted) == 0;
+  };
+  if (rect.contains({0, 0, search_.width, search_.height}))
+    return open_cells_.build(search_.width, search_.height, is_open);
+  for (std::int32_t y = rect.y0; y < rect.y1; ++y)
+    for (std::int32_t x = rect.x0; x < rect.x1; ++x) open_cells_.set({x, y}, is_open({x, y}));
+}
+
+/// The map knows edges only between cells that were seen to be free.
+bool PlanningGrid::map_edge_open(std::size_t from, std::size_t to, std::size_t k) const {
+  constexpr unsigned kNotFree = kBlocked | kUnknown | kAssumed;
+  if (((kinds_[from] | kinds_[to]) & kNotFree) != 0) return true;
   return (map_edges_[from] >> k & 1) != 0 && (map_edges_[to] >> ((k + 4) % 8) & 1) != 0;
 }
 
-/// Steps out of a cell. A diagonal one is open where all four edges of the square that it crosses are: it
-/// cuts no corner, neither of an obstacle nor of a step.
+bool PlanningGrid::map_edge_open(GridCell cell, std::size_t k) const {
+  const GridCell to{cell.x + kStepX[k], cell.y + kStepY[k]};
+  return search_.contains(cell) && search_.contains(to) &&
+         map_edge_open(search_.index(cell), search_.index(to), k);
+}
+
+/// Steps out of a cell, to others that the robot fits in too. A diagonal one is open where all four edges of
+/// the square that it crosses are: it cuts no corner, neither of an obstacle nor of a step.
 std::uint8_t PlanningGrid::edges_at(std::int32_t x, std::int32_t y) const {
-  const std::size_t here = search_.index({x, y});
-  if (blocked_gap_[here] < least_gap_) return 0;
+  if (!passable({x, y})) return 0;
+  const auto link_open = [&](GridCell from, std::size_t k) {
+    const GridCell to{from.x + kStepX[k], from.y + kStepY[k]};
+    return search_.contains(to) && passable(from) && passable(to) &&
+           map_edge_open(search_.index(from), search_.index(to), k);
+  };
   const auto neighbour = [&](std::size_t k) { return GridCell{x + kStepX[k], y + kStepY[k]}; };
   unsigned mask = 0;
-  for (std::size_t k = 0; k < 8; k += 2) {
-    const GridCell to = neighbour(k);
-    if (search_.contains(to) && link_open(here, search_.index(to), k)) mask |= 1U << k;
-  }
+  for (std::size_t k = 0; k < 8; k += 2)
+    if (link_open({x, y}, k)) mask |= 1U << k;
   for (std::size_t k = 1; k < 8; k += 2) {
     const std::size_t a = k - 1, b = (k + 1) % 8;
     if ((mask >> a & 1) == 0 || (mask >> b & 1) == 0) continue;
-    const std::size_t to = search_.index(neighbour(k));
-    if (link_open(here, to, k) && link_open(search_.index(neighbour(a)), to, b) &&
-        link_open(search_.index(neighbour(b)), to, a))
-      mask |= 1U << k;
+    if (link_open({x, y}, k) && link_open(neighbour(a), b) && link_open(neighbour(b), a)) mask |= 1U << k;
   }
   return static_cast<std::uint8_t>(mask);
+}
+
+Floor PlanningGrid::floor(GridCell cell) const {
+  const unsigned kind = kinds_[search_.index(cell)];
+  if ((kind & kBlocked) != 0) return Floor::kBlocked;
+  if ((kind & kUnknown) != 0) return Floor::kUnknown;
+  return (kind & kAssumed) != 0 ? Floor::kAssumed : Floor::kFree;
+}
+
+double PlanningGrid::clearance_m(GridCell cell) const {
+  const std::int32_t reach = blocked_gap_.reach();
+  const CellRect around =
+      CellRect{cell.x - reach, cell.y - reach, cell.x + reach + 1, cell.y + reach + 1}.clipped(
+          {0, 0, search_.width, search_.height});
+  std::int32_t least = blocked_gap_.cap();
+  for (std::int32_t y = around.y0; y < around.y1; ++y) {
+    const std::int32_t dy = std::max(2 * std::abs(y - cell.y) - 1, 0);
+    for (std::int32_t x = around.x0; x < around.x1; ++x) {
+      if ((kinds_[search_.index({x, y})] & (kBlocked | kUnknown)) == 0) continue;
+      const std::int32_t dx = std::max(2 * std::abs(x - cell.x) - 1, 0);
+      least = std::min(least, dx * dx + dy * dy);
+    }
+  }
+  return metres(static_cast<std::int16_t>(least));
 }
 
 GridCell PlanningGrid::cell_of(double x_m, double y_m) const {
@@ -180,8 +292,8 @@ GridCell PlanningGrid::cell_of(double x_m, double y_m) const {
   return {cell.ix - window_.x0, cell.iy - window_.y0};
 }
 
-bool PlanningGrid::assumed_at(std::int32_t x, std::int32_t y) const {
-  return std::hypot(x_of(x) - assumed_.x_m, y_of(y) - assumed_.y_m) <= assumed_.radius_m;
+bool PlanningGrid::within(const AssumedFloor& circle, std::int32_t x, std::int32_t y) const {
+  return std::hypot(x_of(x) - circle.x_m, y_of(y) - circle.y_m) <= circle.radius_m;
 }
 
 double PlanningGrid::metres(std::int16_t gap) const {

@@ -6,6 +6,7 @@
 #include "mapping/grid_map.hpp"
 #include "planner/cell_rect.hpp"
 #include "planner/gap_field.hpp"
+#include "planner/search/bit_grid.hpp"
 #include "planner/search/line_of_sight.hpp"
 #include "planner/search/search_grid.hpp"
 #include "planner/settings.hpp"
@@ -14,9 +15,9 @@
 namespace floornav {
 
 /// What the planner takes a cell for.
-enum class Floor : std::uint8_t { kFree = 0, kAssumed = 1, kUnknown = 2, kBlocked = 3 };
+enum class Floor : std::uint8_t { kFree, kAssumed, kUnknown, kBlocked };
 
-/// A circle around the place where the robot started: what was never seen in it is taken for floor.
+/// A circle, around the place where the robot started say: what was never seen in it is taken for floor.
 struct AssumedFloor {
   double x_m = 0;
   double y_m = 0;
@@ -25,21 +26,27 @@ struct AssumedFloor {
 };
 
 /// The grid-map as the robot's centre may move on it: a window of the map with obstacles grown by the
-/// footprint, steps that cross a closed edge shut, and a weight for what one would rather not drive on.
-/// Follows one map: only tiles whose version changed, and what lies within reach of them, are worked out
-/// again.
+/// footprint and closed edges by the wheels' track, a weight for what one would rather not drive on, and the
+/// same as bits for jump points. Follows one map: only tiles whose version changed, and what lies within
+/// reach of them, are worked out again. Eight bytes a cell.
 class PlanningGrid {
  public:
   PlanningGrid(const PlannerSettings& settings, const RobotSettings& robot)
       : settings_(settings), robot_(robot) {}
 
-  /// Brings the grid up to date with `map`; afterwards it covers `needed` (cells of the map). Throws
-  /// std::invalid_argument where the map's cells are too small for the robot's size.
-  void update(const GridMap& map, const CellRect& needed, const AssumedFloor& assumed);
+  /// Brings the grid up to date with `map`; afterwards it covers `needed` (cells of the map). There is floor
+  /// under the robot itself too, where it stands. Throws std::invalid_argument where the map's cells are too
+  /// small for the robot's size.
+  void update(const GridMap& map, const CellRect& needed, const AssumedFloor& assumed,
+              const AssumedFloor& stands = {});
   /// The next update starts afresh: another map follows.
   void forget() { window_ = {}; }
 
   [[nodiscard]] const SearchGrid& search_grid() const { return search_; }
+  /// The cells between which every step that the corner rule allows is open (in_the_open).
+  [[nodiscard]] const BitGrid& open_cells() const { return open_cells_; }
+  /// Whether those are all cells that have open steps.
+  [[nodiscard]] bool no_cell_parted() const { return parted_cells_ == 0; }
   [[nodiscard]] double pitch_m() const { return lattice_.pitch_m; }
 
   /// The cell that holds a point (m, local frame); it may lie off the grid.
@@ -53,27 +60,56 @@ class PlanningGrid {
   /// The map's cell that is the grid's (0, 0).
   [[nodiscard]] CellIndex origin() const { return {window_.x0, window_.y0}; }
 
-  [[nodiscard]] Floor floor(GridCell cell) const { return static_cast<Floor>(floor_[search_.index(cell)]); }
-  /// The robot's circle around the cell's centre touches nothing blocked.
-  [[nodiscard]] bool passable(GridCell cell) const { return blocked_gap_[search_.index(cell)] >= least_gap_; }
-  /// And nothing unknown.
-  [[nodiscard]] bool known_free(GridCell cell) const { return open_gap_[search_.index(cell)] >= least_gap_; }
-  /// From the cell's centre to the nearest blocked cell, or to the nearest one not known to be free; m, no
-  /// more than the reach that the robot's size and comfort ask for.
+  [[nodiscard]] Floor floor(GridCell cell) const;
+  /// The robot's circle around the cell's centre touches nothing blocked, and its wheels no closed edge.
+  [[nodiscard]] bool passable(GridCell cell) const { return (kinds_[search_.index(cell)] & kFits) != 0; }
+  /// And the circle touches nothing unknown.
+  [[nodiscard]] bool known_free(GridCell cell) const {
+    return (kinds_[search_.index(cell)] & (kFits | kNearUnknown)) == kFits;
+  }
+  /// Whether the map leaves the step to neighbour k open, whatever the room there.
+  [[nodiscard]] bool map_edge_open(GridCell cell, std::size_t k) const;
+  /// From the cell's centre to the nearest blocked cell; m, no more than the reach that the robot's size and
+  /// comfort ask for.
   [[nodiscard]] double obstacle_clearance_m(GridCell cell) const {
     return metres(blocked_gap_[search_.index(cell)]);
   }
-  [[nodiscard]] double clearance_m(GridCell cell) const { return metres(open_gap_[search_.index(cell)]); }
+  /// And to the nearest cell not known to be free; looked for at every call.
+  [[nodiscard]] double clearance_m(GridCell cell) const;
 
  private:
+  /// Bits of a cell's kind; a free cell has none of the first three.
+  static constexpr std::uint8_t kBlocked = 1, kUnknown = 2, kAssumed = 4;
+  static constexpr std::uint8_t kAtStep = 8;        ///< a closed edge parts it from another free cell
+  static constexpr std::uint8_t kFits = 16;         ///< passable
+  static constexpr std::uint8_t kNearUnknown = 32;  ///< the circle touches what is unknown
+  static constexpr std::uint8_t kNearStep = 64;     ///< a wheel may stand on a closed edge
+
+  static constexpr std::uint8_t kParted = 128;  ///< has open steps, but is none of the open cells
+
   void start_afresh(const GridMap& map, const CellRect& needed, const AssumedFloor& assumed);
+  void weigh_gaps();
+  /// Nothing costs more than its length.
+  [[nodiscard]] bool uniform() const;
   CellRect take_changed_tiles(const GridMap& map);
   void take_tile(const GridTile* tile, std::int32_t x0, std::int32_t y0);
+  CellRect assume_floor_under(const AssumedFloor& robot);
+  void set_floor(std::size_t index, std::uint8_t floor) {
+    constexpr unsigned kFloor = kBlocked | kUnknown | kAssumed;
+    kinds_[index] = static_cast<std::uint8_t>((kinds_[index] & ~kFloor) | floor);
+  }
+  void find_steps(const CellRect& rect);
+  void find_near(std::uint8_t what, std::uint8_t mark, std::int16_t least_gap, GapScan& scan,
+                 const CellRect& changed);
   void weigh(const CellRect& rect);
   void open_edges(const CellRect& rect);
-  [[nodiscard]] bool link_open(std::size_t from, std::size_t to, std::size_t k) const;
+  void project_open_cells(const CellRect& rect);
+  [[nodiscard]] ObstacleCells cells_of(std::uint8_t obstacles) const {
+    return {kinds_.data(), search_.width, search_.height, obstacles};
+  }
+  [[nodiscard]] bool map_edge_open(std::size_t from, std::size_t to, std::size_t k) const;
   [[nodiscard]] std::uint8_t edges_at(std::int32_t x, std::int32_t y) const;
-  [[nodiscard]] bool assumed_at(std::int32_t x, std::int32_t y) const;
+  [[nodiscard]] bool within(const AssumedFloor& circle, std::int32_t x, std::int32_t y) const;
   [[nodiscard]] double metres(std::int16_t gap) const;
 
   PlannerSettings settings_;
@@ -83,15 +119,19 @@ class PlanningGrid {
   std::int32_t epoch_ = 0;
   std::int64_t version_ = 0;
   CellRect window_;                        ///< cells of the map that the grid covers, whole tiles
-  std::int16_t least_gap_ = 0;             ///< of a cell where the footprint fits
+  std::int16_t least_gap_ = 0;             ///< to a blocked or unknown cell, where the footprint fits
+  std::int16_t least_step_gap_ = 0;        ///< to a cell at a step, where the wheels fit
   std::vector<std::uint8_t> gap_weights_;  ///< weight of each squared gap to an obstacle
   std::vector<std::int64_t> tile_versions_;
-  std::vector<std::uint8_t> floor_;
+  std::vector<std::uint8_t> kinds_;
   std::vector<std::uint8_t> map_edges_;  ///< as the map has them
   std::vector<std::uint8_t> terrain_;    ///< weight of belief and slope
   GapField blocked_gap_;
-  GapField open_gap_;
+  GapScan unknown_scan_;
+  GapScan step_scan_;
   SearchGrid search_;
+  BitGrid open_cells_;
+  std::int64_t parted_cells_ = 0;
 };
 
 }  // namespace floornav

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "planner/known_line.hpp"
 
@@ -52,7 +53,7 @@ class Joiner {
 }  // namespace
 
 Route moved(const Route& route, CellIndex origin) {
-  Route result{origin, route.corners};
+  Route result{origin, route.corners, route.way_out};
   for (GridPoint& corner : result.corners) {
     corner.x += route.origin.ix - origin.ix;
     corner.y += route.origin.iy - origin.iy;
@@ -81,27 +82,34 @@ std::vector<GridPoint> shorten(const PlanningGrid& grid, const std::vector<GridC
   return points;
 }
 
-bool route_open(const SearchGrid& grid, const std::vector<GridPoint>& corners) {
-  for (std::size_t i = 1; i < corners.size(); ++i)
-    if (!line_open(grid, corners[i - 1], corners[i])) return false;
+bool route_open(const SearchGrid& grid, const Route& route) {
+  for (std::size_t i = route.way_out + 1; i < route.corners.size(); ++i)
+    if (!line_open(grid, route.corners[i - 1], route.corners[i])) return false;
   return true;
 }
 
-double route_cost(const SearchGrid& grid, const std::vector<GridPoint>& corners) {
+double route_cost(const SearchGrid& grid, const Route& route, double heading_rad, double turn_cost) {
   double cost = 0;
-  for (std::size_t i = 1; i < corners.size(); ++i) cost += line_cost(grid, corners[i - 1], corners[i]);
+  for (std::size_t i = route.way_out + 1; i < route.corners.size(); ++i) {
+    const GridPoint a = route.corners[i - 1], b = route.corners[i];
+    if (a == b) continue;
+    const double next_rad = std::atan2(b.y - a.y, b.x - a.x);
+    cost += line_cost(grid, a, b) +
+            turn_cost * std::abs(std::remainder(next_rad - heading_rad, 2 * std::numbers::pi));
+    heading_rad = next_rad;
+  }
   return cost;
 }
 
-std::optional<std::vector<GridPoint>> corners_ahead(const std::vector<GridPoint>& corners, GridPoint here,
-                                                    double reach) {
+std::optional<std::vector<GridPoint>> corners_ahead(const Route& route, GridPoint here, double reach) {
+  const std::vector<GridPoint>& corners = route.corners;
   double nearest = std::numeric_limits<double>::infinity();
   std::size_t next = 0;
   for (std::size_t i = 1; i < corners.size(); ++i) {
     const double distance = distance_to_line(here, corners[i - 1], corners[i]);
     if (distance > nearest) continue;
     nearest = distance;
-    next = i;
+    next = std::max(i, route.way_out);
   }
   if (nearest > reach) return std::nullopt;
   return std::vector<GridPoint>(corners.begin() + static_cast<std::ptrdiff_t>(next), corners.end());

@@ -15,6 +15,7 @@ namespace floornav {
 struct Route {
   CellIndex origin;
   std::vector<GridPoint> corners;
+  std::size_t way_out = 0;  ///< that many lines at its begin lead out of where the robot does not fit
 };
 
 /// The same route on a grid with another origin.
@@ -24,15 +25,15 @@ Route moved(const Route& route, CellIndex origin);
 /// stretch over known free floor stays on it, and does not merge with one over unknown floor.
 std::vector<GridPoint> shorten(const PlanningGrid& grid, const std::vector<GridCell>& path);
 
-/// Every line of the route is open (line_open).
-bool route_open(const SearchGrid& grid, const std::vector<GridPoint>& corners);
+/// Every line of the route but those of its way out is open (line_open).
+bool route_open(const SearchGrid& grid, const Route& route);
 
-/// As line_cost, of all lines together.
-double route_cost(const SearchGrid& grid, const std::vector<GridPoint>& corners);
+/// What a route costs: its lines but those of its way out (line_cost), and `turn_cost` (in steps) for every
+/// radian of its turns, that from `heading_rad` at its begin included.
+double route_cost(const SearchGrid& grid, const Route& route, double heading_rad, double turn_cost);
 
-/// What is left of a route for one who stands at `here`: the corners after the line nearest to it. Nothing
-/// where it is further than `reach` (cells) from all of them.
-std::optional<std::vector<GridPoint>> corners_ahead(const std::vector<GridPoint>& corners, GridPoint here,
-                                                    double reach);
+/// What is left of a route, its way out apart, for one who stands at `here`: the corners after the line
+/// nearest to it. Nothing where it is further than `reach` (cells) from all of them.
+std::optional<std::vector<GridPoint>> corners_ahead(const Route& route, GridPoint here, double reach);
 
 }  // namespace floornav

@@ -12,6 +12,7 @@ struct PlannerSettings {
   double belief_cost = 2.0;       ///< a metre of belief 0, less in proportion above
   double slope_cost = 1.0;        ///< a metre of the robot's steepest slope, less in proportion below
   double clearance_cost = 2.0;    ///< a metre along an obstacle, less in proportion up to comfort_m
+  double turn_cost = 0.1;         ///< a radian turned; decides between a way and the one that is kept
   double comfort_m = 0.3;         ///< between footprint and obstacle: full speed and no cost from here on
   double max_distance_m = 100.0;  ///< a goal further away is refused
   double detour_m = 2.0;          ///< how far around the map's bounds a way may lead
@@ -32,6 +33,7 @@ void visit_settings(Visitor& visit, PlannerSettings& s) {
   visit("belief_cost", s.belief_cost, Allowed{0.0, 7.0});
   visit("slope_cost", s.slope_cost, Allowed{0.0, 7.0});
   visit("clearance_cost", s.clearance_cost, Allowed{0.0, 7.0});
+  visit("turn_cost", s.turn_cost, Allowed{0.0, 5.0});
   visit("comfort_m", s.comfort_m, Allowed{0.0, 2.0});
   visit("max_distance_m", s.max_distance_m, Allowed{1.0, 500.0});
   visit("detour_m", s.detour_m, Allowed{0.5, 50.0});

@@ -7,16 +7,27 @@
 namespace floornav {
 namespace {
 
+constexpr double kGravity_mps2 = 9.81;
+
 double distance_m(const PathPoint& a, const PathPoint& b) {
   return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
 }
 
-/// Full speed on level floor with comfortable clearance; creeps along obstacles and on the steepest slope.
+/// 1 up to `least`, 0 from `most` on, linear between.
+double share(double value, double least, double most) {
+  return most > least ? std::clamp((most - value) / (most - least), 0.0, 1.0) : value < most ? 1.0 : 0.0;
+}
+
+/// Full speed on level, even floor with comfortable clearance; creeps along obstacles, on the steepest slope,
+/// and over steps of half the height that the wheels take. A quarter of that is left to the map's noise.
 double place_limit(const PathPoint& point, double creep, const PlannerSettings& settings,
                    const RobotSettings& robot) {
-  const double spare = (point.clearance_m - robot.radius_m) / std::max(settings.comfort_m, 1e-6);
-  const double steepness = robot.max_slope_deg > 0 ? point.slope_deg / robot.max_slope_deg : 1.0;
-  return creep + (robot.max_speed_mps - creep) * std::clamp(std::min(spare, 1.0 - steepness), 0.0, 1.0);
+  const double clearance =
+      1.0 - share(point.clearance_m, robot.radius_m, robot.radius_m + settings.comfort_m);
+  const double slope = share(point.slope_deg, 0.0, robot.max_slope_deg);
+  const double step = share(point.step_m, 0.25 * robot.max_step_m, 0.5 * robot.max_step_m);
+  const double rough = share(point.roughness_m, 0.125 * robot.max_step_m, 0.5 * robot.max_step_m);
+  return creep + (robot.max_speed_mps - creep) * std::min({clearance, slope, step, rough});
 }
 
 /// A corner is driven as an arc over half the way to each neighbour.
@@ -25,7 +36,10 @@ double turn_limit(const PathPoint& before, const PathPoint& here, const PathPoin
   const double turn_rad =
       std::abs(std::remainder(here.heading_rad - before.heading_rad, 2 * std::numbers::pi));
   const double arc_m = 0.5 * (distance_m(before, here) + distance_m(here, after));
-  return turn_rad > 0 ? robot.max_turn_rate_radps * arc_m / turn_rad : robot.max_speed_mps;
+  if (turn_rad <= 0 || arc_m <= 0) return robot.max_speed_mps;
+  // Half of the sideways acceleration that would tip it over.
+  const double sideways_mps2 = 0.5 * kGravity_mps2 * 0.5 * robot.track_m / robot.center_of_gravity_m;
+  return std::min(robot.max_turn_rate_radps * arc_m / turn_rad, std::sqrt(sideways_mps2 * arc_m / turn_rad));
 }
 
 }  // namespace

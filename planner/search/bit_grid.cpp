@@ -21,7 +21,7 @@ void BitGrid::Lines::put(std::int32_t index, std::int32_t at, bool value) {
 void BitGrid::reset(std::int32_t width, std::int32_t height) {
   width_ = width;
   height_ = height;
-  free_ = 0;
+  free_ = borders_ = 0;
   rows_.reset(height, width);
   columns_.reset(width, height);
   stops_ = static_cast<std::int64_t>(2 * 64 * (rows_.bits.size() + columns_.bits.size()));
@@ -30,6 +30,8 @@ void BitGrid::reset(std::int32_t width, std::int32_t height) {
 void BitGrid::set(GridCell cell, bool free) {
   if (this->free(cell) == free) return;
   free_ += free ? 1 : -1;
+  for (std::size_t k = 0; k < 8; k += 2)
+    borders_ += this->free({cell.x + kStepX[k], cell.y + kStepY[k]}) == free ? -1 : 1;
   rows_.put(cell.y, cell.x, free);
   columns_.put(cell.x, cell.y, free);
   const auto find_around = [&](Lines& lines, std::int32_t index, std::int32_t at, std::int32_t count) {
@@ -44,12 +46,20 @@ void BitGrid::set(GridCell cell, bool free) {
   find_around(columns_, cell.x, cell.y, width_);
 }
 
-void BitGrid::find_all_stops() {
-  for (Lines* const lines : {&rows_, &columns_})
-    for (std::size_t line = 1; (line + 1) * lines->words < lines->bits.size(); ++line)
-      for (std::size_t word = 0; word < lines->words; ++word) find_stops(*lines, line, word);
-  free_ = 0;
+void BitGrid::count_all() {
+  free_ = borders_ = 0;
   for (const std::uint64_t word : rows_.bits) free_ += std::popcount(word);
+  for (Lines* const lines : {&rows_, &columns_}) {
+    for (std::size_t line = 1; (line + 1) * lines->words < lines->bits.size(); ++line) {
+      std::uint64_t before = 0;
+      for (std::size_t word = 0; word < lines->words; ++word) {
+        find_stops(*lines, line, word);
+        const std::uint64_t cells = lines->bits[line * lines->words + word];
+        borders_ += std::popcount(cells ^ (cells << 1 | before));
+        before = cells >> 63;
+      }
+    }
+  }
 }
 
 /// `line` counts the one around the grid.
@@ -70,10 +80,18 @@ void BitGrid::find_stops(Lines& lines, std::size_t line, std::size_t word) {
   lines.stops[1][here] = down;
 }
 
-double BitGrid::clutter() const {
+double BitGrid::turns() const {
   const auto cells = static_cast<std::int64_t>(64 * (rows_.bits.size() + columns_.bits.size()));
   const std::int64_t stops_of_blocked = 2 * (cells - 2 * free_);
-  return free_ > 0 ? static_cast<double>(stops_ - stops_of_blocked) / static_cast<double>(free_) : 0.0;
+  return static_cast<double>(stops_ - stops_of_blocked);
+}
+
+double BitGrid::turns_per_cell() const {
+  return free_ > 0 ? turns() / static_cast<double>(free_) : 0.0;
+}
+
+double BitGrid::turns_per_border() const {
+  return borders_ > 0 ? turns() / static_cast<double>(borders_) : 0.0;
 }
 
 bool in_the_open(const SearchGrid& grid, GridCell cell) {

@@ -24,7 +24,7 @@ class BitGrid {
     for (std::int32_t y = 0; y < height; ++y)
       for (std::int32_t x = 0; x < width; ++x)
         if (free_at(GridCell{x, y})) rows_.put(y, x, true), columns_.put(x, y, true);
-    find_all_stops();
+    count_all();
   }
 
   [[nodiscard]] std::int32_t width() const { return width_; }
@@ -53,18 +53,21 @@ class BitGrid {
   [[nodiscard]] const Lines& rows() const { return rows_; }        ///< line y, at x
   [[nodiscard]] const Lines& columns() const { return columns_; }  ///< line x, at y
 
-  /// How many places there are for a way to turn, all four directions counted, a free cell: what decides how
-  /// well jump points do.
-  [[nodiscard]] double clutter() const;
+  /// How many places there are for a way to turn, all four directions counted: a free cell, and a side of a
+  /// free cell that a blocked one is beside. They decide how well jump points do.
+  [[nodiscard]] double turns_per_cell() const;
+  [[nodiscard]] double turns_per_border() const;
 
  private:
-  void find_all_stops();
+  void count_all();
+  [[nodiscard]] double turns() const;
   void find_stops(Lines& lines, std::size_t line, std::size_t word);
 
   std::int32_t width_ = 0;
   std::int32_t height_ = 0;
   std::int64_t free_ = 0;
-  std::int64_t stops_ = 0;  ///< bits set in all `stops`
+  std::int64_t stops_ = 0;    ///< bits set in all `stops`
+  std::int64_t borders_ = 0;  ///< sides between a free cell and a blocked one
   Lines rows_;
   Lines columns_;
 };

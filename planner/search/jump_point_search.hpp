@@ -33,8 +33,8 @@ class JumpPointSearch {
   struct JumpPoint {
     GridCell cell;
     std::uint32_t cost;
-    std::uint32_t parent;   ///< the jump point before: the way from it is first diagonal, then straight
-    std::uint8_t to_scan;   ///< directions that a way through this cell may go on in
+    std::uint32_t parent;  ///< the jump point before: the way from it is first diagonal, then straight
+    std::uint8_t to_scan;  ///< directions that a way through this cell may go on in
     std::uint8_t scanned;
   };
   struct Waiting {

@@ -30,8 +30,8 @@ void close_diagonals_of_broken_squares(SearchGrid& grid) {
     }
 }
 
-/// Weighted cells, some blocked, and single edges closed both ways at random. Weights of every kind: few heavy
-/// cells, any, fields of one weight, slopes.
+/// Weighted cells, some blocked, and single edges closed both ways at random. Weights of every kind: few
+/// heavy cells, any, fields of one weight, slopes.
 RandomGrid random_grid(unsigned seed) {
   std::mt19937 random(seed);
   const auto uniform = [&](int low, int high) {

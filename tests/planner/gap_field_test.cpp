@@ -11,7 +11,7 @@ namespace {
 
 /// Squared distance in half cells from a cell's centre to another's square, cell by cell.
 std::vector<std::int16_t> brute_force(const std::vector<std::uint8_t>& kinds, std::int32_t width,
-                                      std::int32_t height, std::uint8_t obstacle_from, std::int32_t reach) {
+                                      std::int32_t height, std::uint8_t obstacles, std::int32_t reach) {
   const std::int32_t cap = (2 * reach + 1) * (2 * reach + 1);
   std::vector<std::int16_t> gaps;
   for (std::int32_t y = 0; y < height; ++y)
@@ -19,7 +19,7 @@ std::vector<std::int16_t> brute_force(const std::vector<std::uint8_t>& kinds, st
       std::int32_t least = cap;
       for (std::int32_t v = 0; v < height; ++v)
         for (std::int32_t u = 0; u < width; ++u) {
-          if (kinds[static_cast<std::size_t>(v * width + u)] < obstacle_from) continue;
+          if ((kinds[static_cast<std::size_t>(v * width + u)] & obstacles) == 0) continue;
           const std::int32_t dx = std::max(0, 2 * std::abs(u - x) - 1),
                              dy = std::max(0, 2 * std::abs(v - y) - 1);
           least = std::min(least, dx * dx + dy * dy);
@@ -36,7 +36,8 @@ TEST_P(GapFieldOfSeed, EqualsBruteForceAfterEveryChange) {
   const auto uniform = [&](int low, int high) {
     return std::uniform_int_distribution<int>(low, high)(random);
   };
-  const std::int32_t width = uniform(1, 50), height = uniform(1, 50), reach = uniform(1, 12);
+  const std::int32_t width = uniform(1, 100), height = uniform(1, 50),
+                     reach = uniform(1, GetParam() % 8 == 0 ? 63 : 12);
   std::vector<std::uint8_t> kinds(static_cast<std::size_t>(width * height), 0);
   GapField field;
   field.reset(width, height, reach);
@@ -49,7 +50,7 @@ TEST_P(GapFieldOfSeed, EqualsBruteForceAfterEveryChange) {
       for (std::int32_t x = rect.x0; x < rect.x1; ++x)
         kinds[static_cast<std::size_t>(y * width + x)] =
             static_cast<std::uint8_t>(uniform(0, 99) < percent ? uniform(2, 3) : uniform(0, 1));
-    field.update(kinds, 2, rect);
+    field.update({kinds.data(), width, height, 2}, rect);
     const auto truth = brute_force(kinds, width, height, 2, reach);
     for (std::size_t i = 0; i < truth.size(); ++i)
       ASSERT_EQ(field[i], truth[i]) << "change " << change << " cell " << i;

@@ -62,9 +62,23 @@ std::string fault_under_circle(const Problem& p, double x_m, double y_m, double 
       if (state == VertexState::kBlocked) return "blocked";
       const double from_start_m =
           std::hypot(lattice.center_of(ix) - p.start_x_m, lattice.center_of(iy) - p.start_y_m);
-      if (state == VertexState::kUnknown && from_start_m > assumed_m + 1e-9) return "unknown";
+      const bool under_robot = from_start_m <= p.robot.radius_m + lattice.pitch_m + 1e-9;
+      if (state == VertexState::kUnknown && from_start_m > assumed_m + 1e-9 && !under_robot) return "unknown";
     }
   return "";
+}
+
+/// Distance to the nearest blocked cell, as far as `most_m`.
+double distance_to_blocked(const Problem& p, double x_m, double y_m, double most_m) {
+  const Lattice& lattice = p.map.lattice();
+  const CellIndex low = lattice.cell_of(x_m - most_m, y_m - most_m),
+                  high = lattice.cell_of(x_m + most_m, y_m + most_m);
+  double nearest_m = most_m;
+  for (std::int32_t iy = low.iy; iy <= high.iy; ++iy)
+    for (std::int32_t ix = low.ix; ix <= high.ix; ++ix)
+      if (p.map.state({ix, iy}) == VertexState::kBlocked)
+        nearest_m = std::min(nearest_m, distance_to_cell(x_m, y_m, {ix, iy}, lattice.pitch_m));
+  return nearest_m;
 }
 
 bool edge_open(const GridMap& map, CellIndex from, CellIndex to) {
@@ -81,10 +95,37 @@ bool edge_open(const GridMap& map, CellIndex from, CellIndex to) {
   return !both_seen || (bit_of(from, to) && bit_of(to, from));
 }
 
-/// Looks at the path every fifth of a cell.
+/// Distance to the nearest line between two free cells that a closed edge parts, as far as `most_m`.
+double distance_to_step(const Problem& p, double x_m, double y_m, double most_m) {
+  const Lattice& lattice = p.map.lattice();
+  const double side_m = lattice.pitch_m;
+  const CellIndex low = lattice.cell_of(x_m - most_m - side_m, y_m - most_m - side_m),
+                  high = lattice.cell_of(x_m + most_m, y_m + most_m);
+  double nearest_m = most_m;
+  for (std::int32_t iy = low.iy; iy <= high.iy; ++iy)
+    for (std::int32_t ix = low.ix; ix <= high.ix; ++ix)
+      for (const CellIndex to : {CellIndex{ix + 1, iy}, CellIndex{ix, iy + 1}}) {
+        if (edge_open(p.map, {ix, iy}, to)) continue;
+        // The line between them runs from the upper corner of the lower one, up or to the right.
+        const double x0 = to.ix * side_m, y0 = to.iy * side_m;
+        const double x1 = to.ix > ix ? x0 : x0 + side_m, y1 = to.iy > iy ? y0 : y0 + side_m;
+        nearest_m = std::min(
+            nearest_m, std::hypot(std::max({x0 - x_m, x_m - x1, 0.0}), std::max({y0 - y_m, y_m - y1, 0.0})));
+      }
+  return nearest_m;
+}
+
+double wheels_m(const Problem& p) {
+  return std::min(0.5 * p.robot.track_m, p.robot.radius_m);
+}
+
+/// Looks at the path every fifth of a cell. A robot that does not fit where it stands first comes away from
+/// what is too near.
 void expect_safe(const Problem& p, const Plan& plan, unsigned seed) {
   const Lattice& lattice = p.map.lattice();
   std::optional<CellIndex> last;
+  const double nearest_m =
+      distance_to_blocked(p, p.start_x_m, p.start_y_m, p.robot.radius_m) - lattice.pitch_m;
   for (std::size_t i = 1; i < plan.points.size(); ++i) {
     const PathPoint &a = plan.points[i - 1], &b = plan.points[i];
     const double length_m = std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
@@ -92,7 +133,13 @@ void expect_safe(const Problem& p, const Plan& plan, unsigned seed) {
     for (int k = 0; k <= samples; ++k) {
       const double t = static_cast<double>(k) / samples;
       const double x = a.x_m + t * (b.x_m - a.x_m), y = a.y_m + t * (b.y_m - a.y_m);
-      ASSERT_EQ(fault_under_circle(p, x, y), "") << "seed " << seed << " at " << x << ", " << y;
+      const double to_step_m = distance_to_step(p, x, y, wheels_m(p));
+      if (i > plan.way_out_points) {
+        ASSERT_EQ(fault_under_circle(p, x, y), "") << "seed " << seed << " at " << x << ", " << y;
+        ASSERT_GE(to_step_m, wheels_m(p) - 1e-9) << "seed " << seed << " at " << x << ", " << y;
+      } else {
+        ASSERT_GE(distance_to_blocked(p, x, y, p.robot.radius_m), nearest_m) << "seed " << seed;
+      }
       const CellIndex cell = lattice.cell_of(x, y);
       if (last && *last != cell) {
         ASSERT_TRUE(edge_open(p.map, *last, cell)) << "seed " << seed;
@@ -136,7 +183,11 @@ bool reachable(const Problem& p, double margin) {
   const Lattice& lattice = p.map.lattice();
   const auto fits = [&](CellIndex c) {
     const double x_m = lattice.center_of(c.ix), y_m = lattice.center_of(c.iy);
-    return fault_under_circle(p, x_m, y_m, margin * lattice.pitch_m).empty();
+    const double margin_m = margin * lattice.pitch_m;
+    // A step binds as wide as the cells beside it are.
+    const double off_step_m = wheels_m(p) + lattice.pitch_m * 1.5 + margin_m;
+    return fault_under_circle(p, x_m, y_m, margin_m).empty() &&
+           distance_to_step(p, x_m, y_m, off_step_m) >= off_step_m;
   };
   const CellIndex start = lattice.cell_of(p.start_x_m, p.start_y_m);
   if (!fits(start)) return false;

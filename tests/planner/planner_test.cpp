@@ -25,7 +25,9 @@ RobotSettings robot() {
 
 /// A room of free floor, `wide` x `high` cells, with walls around it.
 std::vector<std::string> room(std::size_t wide, std::size_t high) {
-  std::vector<std::string> rows(high, "#" + std::string(wide - 2, '.') + "#");
+  std::string row(wide, '.');
+  row.front() = row.back() = '#';
+  std::vector<std::string> rows(high, row);
   rows.front() = rows.back() = std::string(wide, '#');
   return rows;
 }
@@ -113,13 +115,76 @@ TEST(Planner, AssumesFloorAgainWhenTheMapStartsANewEpoch) {
 
 TEST(Planner, SaysThatTheStartIsBlockedAndByHowMuch) {
   auto rows = room(100, 60);
-  fill(rows, 21, 19, 23, 22, '#');
+  fill(rows, 18, 10, 20, 40, '#');  // between two walls, as near to one as to the other
+  fill(rows, 21, 10, 23, 40, '#');
   const GridMap map = draw_map(rows, kCell_m);
   Planner planner({}, robot());
   const Plan plan = planner.plan(map, pose_at(2.05, 2.05), {8, 3, 0.1});
   EXPECT_EQ(plan.status, PlanStatus::kStartBlocked);
   EXPECT_NE(plan.reason.find("0.05 m"), std::string::npos) << plan.reason;
   EXPECT_TRUE(plan.points.empty());
+}
+
+TEST(Planner, SaysThatTheStartIsBlockedWhereTheMapHasAnObstacleUnderTheRobot) {
+  auto rows = room(100, 60);
+  rows[20][20] = '#';
+  Planner planner({}, robot());
+  EXPECT_EQ(planner.plan(draw_map(rows, kCell_m), pose_at(2.05, 2.05), {8, 3, 0.1}).status,
+            PlanStatus::kStartBlocked);
+}
+
+TEST(Planner, CreepsOutOfTheInflationAwayFromWhatIsTooNear) {
+  auto rows = room(100, 60);
+  fill(rows, 21, 19, 23, 22, '#');
+  const GridMap map = draw_map(rows, kCell_m);
+  PlannerSettings settings;
+  Planner planner(settings, robot());
+  const Plan plan = planner.plan(map, pose_at(2.05, 2.05), {8, 3, 0.1});
+  ASSERT_EQ(plan.status, PlanStatus::kFollowing) << plan.reason;
+  EXPECT_DOUBLE_EQ(plan.points.front().x_m, 2.05);
+  bool out = false;
+  double nearest_m = 0.05;  // to the obstacle, from where it stands
+  for (const PathPoint& p : plan.points) {
+    const double dx = std::max({2.1 - p.x_m, p.x_m - 2.3, 0.0}),
+                 dy = std::max({1.9 - p.y_m, p.y_m - 2.2, 0.0});
+    const double here_m = std::hypot(dx, dy);
+    out = out || here_m >= 0.3;
+    if (out) {
+      EXPECT_GE(here_m, 0.3);
+      continue;
+    }
+    EXPECT_GE(here_m, nearest_m - 1e-9);
+    EXPECT_LE(p.speed_mps, settings.creep_speed_mps);
+    nearest_m = here_m;
+  }
+  EXPECT_TRUE(out);
+  EXPECT_TRUE(planner.holds(plan, map, pose_at(2.05, 2.05), {8, 3, 0.1}));
+}
+
+TEST(Planner, SetsOutFromAPlaceNeverSeenUnderTheRobot) {
+  auto rows = room(100, 60);
+  fill(rows, 38, 28, 43, 33, ' ');
+  const GridMap map = draw_map(rows, kCell_m);
+  PlannerSettings settings;
+  settings.assumed_radius_m = 0.0;
+  Planner planner(settings, robot());
+  ASSERT_EQ(planner.plan(map, pose_at(2, 3), {8, 3, 0.1}).status, PlanStatus::kFollowing);
+  const Plan plan = planner.plan(map, pose_at(4.05, 3.05), {8, 3, 0.1});
+  EXPECT_EQ(plan.status, PlanStatus::kFollowing) << plan.reason;
+}
+
+TEST(Planner, KeepsItsWheelsOffStepsThatItsCentrePasses) {
+  GridMap map = draw_map(room(100, 60), kCell_m);
+  for (std::int32_t x = 30; x < 70; ++x)  // a kerb along y = 3.2, beside the straight way
+    for (const unsigned k : {1U, 2U, 3U}) close_edge(map, {x, 31}, k);
+  RobotSettings narrow = robot();
+  narrow.track_m = 0.5;
+  const Plan plan = Planner({}, narrow).plan(map, pose_at(1, 3.05), {9, 3.05, 0.1});
+  ASSERT_EQ(plan.status, PlanStatus::kFollowing) << plan.reason;
+  for (const PathPoint& p : plan.points) {
+    const double along_m = std::max({3.0 - p.x_m, p.x_m - 7.0, 0.0});
+    EXPECT_GE(std::hypot(along_m, 3.2 - p.y_m), 0.25);
+  }
 }
 
 TEST(Planner, GoesOnFromAFewCentimetresInsideTheInflation) {
@@ -178,13 +243,38 @@ TEST(Planner, RefusesAGoalTooFarAway) {
   EXPECT_NE(plan.reason.find("max_distance_m"), std::string::npos);
 }
 
-TEST(Planner, GivesUpWhenToldTo) {
+TEST(Planner, TakesTheShortestWayWhenThereIsNoTimeForTheCheapest) {
   auto walled = room(300, 300);
   fill(walled, 200, 0, 202, 290, '#');
   Planner planner({}, robot());
   const Plan plan =
       planner.plan(draw_map(walled, kCell_m), pose_at(2, 3), {28, 3, 0.5}, nullptr, [] { return true; });
+  EXPECT_EQ(plan.status, PlanStatus::kFollowing);
+  EXPECT_NE(plan.reason.find("shortest"), std::string::npos) << plan.reason;
+  EXPECT_GT(plan.length_m, 2 * 25.0);
+}
+
+TEST(Planner, GivesUpWhenToldTo) {
+  auto walled = room(300, 300);
+  fill(walled, 200, 0, 202, 300, '#');
+  Planner planner({}, robot());
+  const Plan plan =
+      planner.plan(draw_map(walled, kCell_m), pose_at(2, 3), {28, 3, 0.5}, nullptr, [] { return true; });
   EXPECT_EQ(plan.status, PlanStatus::kInterrupted);
+}
+
+TEST(Planner, FindsTheShortestWayByJumpPointsWhereNothingCostsMoreThanItsLength) {
+  auto rows = room(300, 200);
+  fill(rows, 100, 0, 102, 150, '#');
+  fill(rows, 200, 50, 202, 200, '#');
+  const GridMap map = draw_map(rows, kCell_m);
+  PlannerSettings uniform;
+  uniform.unknown_cost = uniform.belief_cost = uniform.slope_cost = uniform.clearance_cost = 0;
+  const Plan plan = Planner(uniform, robot()).plan(map, pose_at(2, 2), {28, 2, 0.1});
+  ASSERT_EQ(plan.status, PlanStatus::kFollowing) << plan.reason;
+  const Plan cautious = Planner({}, robot()).plan(map, pose_at(2, 2), {28, 2, 0.1});
+  EXPECT_LE(plan.length_m, 1.02 * cautious.length_m);
+  EXPECT_GT(plan.length_m, 30.0);
 }
 
 /// A hall with a pillar in the middle; the ways around it are equal.
