@@ -30,16 +30,28 @@ double place_limit(const PathPoint& point, double creep, const PlannerSettings& 
   return creep + (robot.max_speed_mps - creep) * std::min({clearance, slope, step, rough});
 }
 
-/// A corner is driven as an arc over half the way to each neighbour.
-double turn_limit(const PathPoint& before, const PathPoint& here, const PathPoint& after,
+/// All turns between two neighbours on the way back from a point as far as `reach_m`, added up.
+double turned_before(const std::vector<PathPoint>& points, std::size_t i, double reach_m) {
+  double turned_rad = 0;
+  for (double gone_m = 0; i > 0; --i) {
+    gone_m += distance_m(points[i], points[i - 1]);
+    if (gone_m > reach_m) break;
+    turned_rad +=
+        std::abs(std::remainder(points[i].heading_rad - points[i - 1].heading_rad, 2 * std::numbers::pi));
+  }
+  return turned_rad;
+}
+
+/// The turns that lie close together before a point are driven as one arc as long as a spacing.
+double turn_limit(const std::vector<PathPoint>& points, std::size_t i, double spacing_m,
                   const RobotSettings& robot) {
-  const double turn_rad =
-      std::abs(std::remainder(here.heading_rad - before.heading_rad, 2 * std::numbers::pi));
-  const double arc_m = 0.5 * (distance_m(before, here) + distance_m(here, after));
-  if (turn_rad <= 0 || arc_m <= 0) return robot.max_speed_mps;
+  constexpr double kRounding = 1.0 + 1e-6;
+  const double turn_rad = turned_before(points, i, kRounding * spacing_m);
+  if (turn_rad <= 0) return robot.max_speed_mps;
   // Half of the sideways acceleration that would tip it over.
   const double sideways_mps2 = 0.5 * kGravity_mps2 * 0.5 * robot.track_m / robot.center_of_gravity_m;
-  return std::min(robot.max_turn_rate_radps * arc_m / turn_rad, std::sqrt(sideways_mps2 * arc_m / turn_rad));
+  return std::min(robot.max_turn_rate_radps * spacing_m / turn_rad,
+                  std::sqrt(sideways_mps2 * spacing_m / turn_rad));
 }
 
 }  // namespace
@@ -49,9 +61,8 @@ void set_speeds(std::vector<PathPoint>& points, const PlannerSettings& settings,
   const double creep = std::min(settings.creep_speed_mps, robot.max_speed_mps);
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i].speed_mps = place_limit(points[i], creep, settings, robot);
-    if (i > 0 && i + 1 < points.size())
-      points[i].speed_mps =
-          std::min(points[i].speed_mps, turn_limit(points[i - 1], points[i], points[i + 1], robot));
+    points[i].speed_mps =
+        std::min(points[i].speed_mps, turn_limit(points, i, settings.point_spacing_m, robot));
   }
   points.back().speed_mps = 0;
   const auto reachable = [&](const PathPoint& from, const PathPoint& to) {
