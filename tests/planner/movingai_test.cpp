@@ -23,9 +23,9 @@ fs::path movingai_folder() {
   return root / "movingai";
 }
 
-/// A few maps of different kinds; all of them where FLOORNAV_ALL_MAPS is set in the environment.
+/// A few maps of different kinds; all of them where FLOORNAV_LONG is set in the environment.
 std::set<std::string> maps_to_try() {
-  if (std::getenv("FLOORNAV_ALL_MAPS") == nullptr)
+  if (std::getenv("FLOORNAV_LONG") == nullptr)
     return {"arena", "den312d", "ost003d", "Berlin_0_256", "AR0011SR"};
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(movingai_folder()))
