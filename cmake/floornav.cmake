@@ -14,7 +14,7 @@ function(floornav_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(floornav_${name} STATIC ${ARG_SOURCES})
   add_library(floornav::${name} ALIAS floornav_${name})
-  target_link_libraries(floornav_${name} PRIVATE floornav_options PUBLIC ${ARG_LINK})
+  target_link_libraries(floornav_${name} PRIVATE $<BUILD_INTERFACE:floornav_options> PUBLIC ${ARG_LINK})
 endfunction()
 
 # floornav_program(NAME SOURCES ... LINK ...): build/bin/floornav-NAME.
