@@ -12,6 +12,7 @@ namespace {
 constexpr double kMostTurn_deg = 35.0;
 constexpr double kStripLength_m = 8.0;
 constexpr double kMostSlope = 0.03;
+constexpr double kCameraHeight_m = 0.72;
 
 PlanarState random_state(RandomStream& random) {
   const SinCos turn = sin_cos_deg(random.uniform(0, 360));
@@ -30,7 +31,8 @@ StepCourse step_course(double height_m, std::uint64_t seed) {
   StepCourse course;
   for (std::size_t i = 0; i < kStepDistances_m.size(); ++i) {
     const double rise_m = i % 2 == 0 ? height_m : -height_m;
-    course.edges.push_back({robot.position_m + kStepDistances_m[i] * robot.ahead, across, rise_m});
+    const double hidden_m = rise_m < 0 ? height_m * kStepDistances_m[i] / (kCameraHeight_m - height_m) : 0.0;
+    course.edges.push_back({robot.position_m + kStepDistances_m[i] * robot.ahead, across, rise_m, hidden_m});
   }
   for (std::size_t i = 0; i + 1 < course.edges.size(); i += 2) {
     const Eigen::Vector2d from = course.edges[i].middle_m;

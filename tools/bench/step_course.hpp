@@ -17,6 +17,7 @@ struct StepEdge {
   Eigen::Vector2d middle_m;  ///< in front of the sensor
   Eigen::Vector2d across;    ///< unit vector, away from the robot, at right angles to the edge
   double rise_m = 0;         ///< going away from the robot: positive up
+  double hidden_m = 0;       ///< floor behind the edge, where it falls, that the camera does not see
 };
 
 /// A floor with strips of one height whose edges lie at kStepDistances_m, all turned by one random angle; the

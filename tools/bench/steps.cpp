@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "tools/bench/frame_stack.hpp"
+#include "tools/bench/sensor_names.hpp"
+#include "tools/bench/table1.hpp"
 #include "tools/simulator/random.hpp"
 #include "tools/simulator/vehicle.hpp"
 
@@ -23,7 +25,7 @@ constexpr double kSide_m = 0.1;    ///< of the places compared, before and behin
 constexpr double kAlong_m = 0.15;  ///< between places along an edge
 constexpr double kPlainSpacing_m = 0.2;
 constexpr double kFalseDifference_m = 0.005;
-constexpr int kBlockMatchingWindow_px = 9;
+constexpr std::uint64_t kPlainAtOnce = 4;  ///< whatever the number of threads
 
 std::optional<double> height_at(const GridMap& map, const Eigen::Vector2d& place) {
   const CellIndex cell = map.lattice().cell_of(place.x(), place.y());
@@ -61,15 +63,10 @@ bool has_closed_edge(const GridMap& map, const Eigen::Vector2d& from, const Eige
   return false;
 }
 
-SensorSpec sensor_of(SensorKind kind, bool correlated) {
-  SensorSpec spec = kind == SensorKind::kKinect ? kinect() : bumblebee();
-  if (correlated) spec.noise.correlation_px = kBlockMatchingWindow_px;
-  return spec;
-}
-
 /// The last frames of a robot that drives slowly up to where the course has it.
 std::unique_ptr<FrameStack> drive_up(const StepCourse& course, DepthSensor& sensor, int frames) {
-  auto stack = std::make_unique<FrameStack>(PerceptionSettings{}, MappingSettings{}, RobotSettings{});
+  auto stack = std::make_unique<FrameStack>(perception_for(sensor.model().kind, SectionSettings{}),
+                                            MappingSettings{}, RobotSettings{});
   for (int frame = 0; frame < frames; ++frame) {
     const Eigen::Vector2d ahead = course.T_world_body.linear().col(0).head<2>().normalized();
     const Eigen::Vector2d end = course.T_world_body.translation().head<2>();
@@ -80,32 +77,57 @@ std::unique_ptr<FrameStack> drive_up(const StepCourse& course, DepthSensor& sens
   return stack;
 }
 
-double false_alarms_per_m2(const SensorSpec& spec, int frames, double plain_m2, std::uint64_t seed) {
+struct Alarms {
   double seen_m2 = 0;
-  double alarms = 0;
-  for (std::uint64_t number = 0; seen_m2 < plain_m2; ++number) {
-    const std::uint64_t key = random_key({seed, number});
-    const StepCourse course = plain_course(key);
-    DepthSensor sensor(spec, key);
-    const PlainCheck check = check_plain(drive_up(course, sensor, frames)->published(), course.shapes.ground);
-    if (check.places == 0) throw std::runtime_error("nothing was seen of a plain floor");
-    seen_m2 += check.places * kPlainSpacing_m * kPlainSpacing_m;
-    alarms += check.alarms;
-  }
-  return alarms / seen_m2;
+  int count = 0;
+};
+
+Alarms alarms_of_frame(const SensorSpec& spec, int frames, std::uint64_t key) {
+  const StepCourse course = plain_course(key);
+  DepthSensor sensor(spec, key);
+  const PlainCheck check = check_plain(drive_up(course, sensor, frames)->published(), course.shapes.ground);
+  if (check.places == 0) throw std::runtime_error("nothing was seen of a plain floor");
+  return {check.places * kPlainSpacing_m * kPlainSpacing_m, check.alarms};
 }
 
-void measure_height(const SensorSpec& spec, int frames, int poses, double height_m, std::uint64_t seed,
-                    std::span<StepRow> rows) {
-  for (int pose = 0; pose < poses; ++pose) {
-    const std::uint64_t key = random_key({seed, static_cast<std::uint64_t>(pose), 0x57E9});
-    const StepCourse course = step_course(height_m, key);
-    DepthSensor sensor(spec, key);
-    const auto stack = drive_up(course, sensor, frames);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      ++rows[i].poses;
-      rows[i].found += shows_step(stack->published(), course.edges[i]) ? 1 : 0;
+double false_alarms_per_m2(const SensorSpec& spec, int frames, const StepOptions& options,
+                           Parallel& parallel) {
+  Alarms all;
+  for (std::uint64_t first = 0; all.seen_m2 < options.plain_m2; first += kPlainAtOnce) {
+    std::array<Alarms, kPlainAtOnce> some;
+    parallel.run(static_cast<int>(kPlainAtOnce), [&](int index, int) {
+      const auto i = static_cast<std::size_t>(index);
+      some[i] = alarms_of_frame(spec, frames, random_key({options.seed, first + i}));
+    });
+    for (const Alarms& alarms : some) {
+      all.seen_m2 += alarms.seen_m2;
+      all.count += alarms.count;
     }
+  }
+  return all.count / all.seen_m2;
+}
+
+/// Which of a course's edges the map shows.
+std::array<bool, kStepDistances_m.size()> found_at(const SensorSpec& spec, int frames, double height_m,
+                                                   std::uint64_t key) {
+  const StepCourse course = step_course(height_m, key);
+  DepthSensor sensor(spec, key);
+  const auto stack = drive_up(course, sensor, frames);
+  std::array<bool, kStepDistances_m.size()> found{};
+  for (std::size_t i = 0; i < found.size(); ++i) found[i] = shows_step(stack->published(), course.edges[i]);
+  return found;
+}
+
+void measure_height(const SensorSpec& spec, const StepOptions& options, Parallel& parallel,
+                    std::span<StepRow> rows) {
+  std::vector<std::array<bool, kStepDistances_m.size()>> found(static_cast<std::size_t>(options.poses));
+  parallel.run(options.poses, [&](int pose, int) {
+    const auto p = static_cast<std::size_t>(pose);
+    found[p] = found_at(spec, rows[0].frames, rows[0].height_m, random_key({options.seed, p, 0x57E9}));
+  });
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].poses = options.poses;
+    for (const auto& of_pose : found) rows[i].found += of_pose[i] ? 1 : 0;
   }
 }
 
@@ -118,7 +140,7 @@ bool shows_step(const GridMap& map, const StepEdge& edge) {
   for (int k = -2; k <= 2; ++k) {
     const Eigen::Vector2d place = edge.middle_m + k * kAlong_m * along;
     const Eigen::Vector2d before = place - kSide_m * edge.across;
-    const Eigen::Vector2d behind = place + kSide_m * edge.across;
+    const Eigen::Vector2d behind = place + (kSide_m + edge.hidden_m) * edge.across;
     const auto low = height_at(map, before);
     const auto high = height_at(map, behind);
     ++places;
@@ -156,22 +178,21 @@ PlainCheck check_plain(const GridMap& map, const Ground& ground) {
   return check;
 }
 
-std::vector<StepRow> measure_steps(int poses, double plain_m2, std::uint64_t seed,
+std::vector<StepRow> measure_steps(const StepOptions& options, Parallel& parallel,
                                    const std::function<void(const std::string&)>& progress) {
   std::vector<StepRow> rows;
-  for (const SensorKind kind : {SensorKind::kKinect, SensorKind::kBumblebee}) {
+  for (const SensorKind kind : options.sensors) {
     for (const bool correlated : {false, true}) {
-      const SensorSpec spec = sensor_of(kind, correlated);
+      const SensorSpec spec = bench_sensor(kind, correlated);
       for (const int frames : {1, kFrames}) {
-        progress(fmt::format("steps: {}, {} noise, {} frames",
-                             kind == SensorKind::kKinect ? "Kinect" : "Bumblebee",
-                             correlated ? "correlated" : "independent", frames));
-        const double alarms = false_alarms_per_m2(spec, frames, plain_m2, seed);
+        progress(fmt::format("steps: {}, {} noise, {} frames a pose, {} poses", name_of(kind),
+                             noise_name(correlated), frames, options.poses));
+        const double alarms = false_alarms_per_m2(spec, frames, options, parallel);
         for (const double height_m : kHeights_m) {
           const std::size_t first = rows.size();
           for (const double distance_m : kStepDistances_m)
             rows.push_back({kind, correlated, height_m, distance_m, frames, 0, 0, alarms});
-          measure_height(spec, frames, poses, height_m, seed, std::span(rows).subspan(first));
+          measure_height(spec, options, parallel, std::span(rows).subspan(first));
         }
       }
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mapping/grid_map.hpp"
+#include "runtime/geometry/parallel.hpp"
 #include "tools/bench/step_course.hpp"
 #include "tools/simulator/sensor_spec.hpp"
 
@@ -24,7 +25,8 @@ struct StepRow {
 };
 
 /// Whether the map shows the step: at half or more of the places along it, an edge between the two sides is
-/// closed, or their heights differ by the rise within half of it.
+/// closed, or their heights differ by the rise within half of it. Behind an edge that falls the first floor
+/// that can be seen is looked at.
 bool shows_step(const GridMap& map, const StepEdge& edge);
 
 /// Places on a plain floor, 0.2 m apart, and how many of them look like a step of 1 cm: a closed edge to a
@@ -35,9 +37,15 @@ struct PlainCheck {
 };
 PlainCheck check_plain(const GridMap& map, const Ground& ground);
 
-/// Steps of 1, 2, 3 and 5 cm at every distance, `poses` random poses each, both sensors and both noises, one
-/// frame and ten; false alarms over `plain_m2` of floor.
-std::vector<StepRow> measure_steps(int poses, double plain_m2, std::uint64_t seed,
+struct StepOptions {
+  std::vector<SensorKind> sensors{SensorKind::kKinect, SensorKind::kBumblebee};
+  int poses = 20;          ///< random ones a height
+  double plain_m2 = 1000;  ///< of floor seen, for the false alarms
+  std::uint64_t seed = 1;
+};
+
+/// Steps of 1, 2, 3 and 5 cm at every distance, both noises, one frame and ten; false alarms on plain floor.
+std::vector<StepRow> measure_steps(const StepOptions& options, Parallel& parallel,
                                    const std::function<void(const std::string&)>& progress);
 
 }  // namespace floornav

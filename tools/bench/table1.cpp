@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "tools/bench/frame_stack.hpp"
+#include "tools/bench/sensor_names.hpp"
 #include "tools/simulator/random.hpp"
 
 namespace floornav {
@@ -18,30 +19,12 @@ constexpr double kNear_m = 3.0;
 constexpr double kFloorRange_m = 6.0;
 constexpr int kBlockMatchingWindow_px = 9;
 
-struct Grid {
-  int x_res;
-  int y_res;
-};
-constexpr std::array<Grid, 4> kGrids{{{3, 2}, {4, 3}, {8, 6}, {12, 9}}};
+constexpr std::array<SectionSettings, 4> kGrids{{{3, 2}, {4, 3}, {8, 6}, {12, 9}}};
 
 constexpr std::array<std::array<PaperRow, 4>, 2> kPaper{{
     {{{0.51, 5.31}, {0.44, 4.97}, {0.44, 4.88}, {0.40, 4.74}}},
     {{{0.39, 2.49}, {0.31, 2.21}, {0.32, 2.10}, {0.29, 1.99}}},
 }};
-
-CoveredArea area_of(SensorKind sensor) {
-  return sensor == SensorKind::kKinect ? CoveredArea{5.5, 3.0} : CoveredArea{6.0, 4.2};
-}
-
-PerceptionSettings perception_of(SensorKind sensor, const Grid& grid) {
-  const CoveredArea area = area_of(sensor);
-  PerceptionSettings settings;
-  settings.roi.x_max_m = area.length_m;
-  settings.roi.y_min_m = -0.5 * area.width_m;
-  settings.roi.y_max_m = 0.5 * area.width_m;
-  settings.sections = {grid.x_res, grid.y_res};
-  return settings;
-}
 
 bool within(const Footprint& footprint, const Eigen::Vector2d& place, double margin_m) {
   const Eigen::Vector2d local = footprint.local(place).cwiseAbs();
@@ -61,6 +44,75 @@ void visit_vertices(const GridMap& map, const Visit& visit) {
             static_cast<double>(tile.height_m(i)));
     }
   }
+}
+
+using RowsOfGrids = std::array<Table1Row, kGrids.size()>;
+
+RowsOfGrids measure(SensorKind kind, bool correlated, std::uint64_t key) {
+  const SensorSpec model = bench_sensor(kind, correlated);
+  const ObstacleCourse course = random_course(model, covered_area(kind), key);
+  DepthSensor sensor(model, key);
+  const auto pixels = sensor.measure(course.shapes, course.T_world_body, 0);
+  RowsOfGrids rows;
+  for (std::size_t i = 0; i < kGrids.size(); ++i) {
+    rows[i].sensor = kind;
+    rows[i].correlated = correlated;
+    rows[i].x_res = kGrids[i].x_res;
+    rows[i].y_res = kGrids[i].y_res;
+    MappingSettings mapping;
+    mapping.resolution_m = kVertex_m;
+    FrameStack stack(perception_for(kind, kGrids[i]), mapping, RobotSettings{});
+    stack.see(sensor, pixels, course.T_world_body);
+    judge(course, stack.published(), rows[i]);
+  }
+  return rows;
+}
+
+}  // namespace
+
+void HeightErrors::add(double found_m, double true_m) {
+  const bool is_missed = found_m < 0.5 * true_m;
+  const double error_m = is_missed ? true_m : std::fabs(found_m - true_m);
+  ++count;
+  missed += is_missed ? 1 : 0;
+  sum_m += error_m;
+  worst_m = std::max(worst_m, error_m);
+}
+
+void HeightErrors::add(const HeightErrors& more) {
+  count += more.count;
+  missed += more.missed;
+  sum_m += more.sum_m;
+  worst_m = std::max(worst_m, more.worst_m);
+}
+
+void Table1Row::add(const Table1Row& more) {
+  near.add(more.near);
+  far.add(more.far);
+  flat.add(more.flat);
+  sloped.add(more.sloped);
+  floor_square_m2 += more.floor_square_m2;
+  floor_vertices += more.floor_vertices;
+}
+
+CoveredArea covered_area(SensorKind sensor) {
+  return sensor == SensorKind::kKinect ? CoveredArea{5.5, 3.0} : CoveredArea{6.0, 4.2};
+}
+
+PerceptionSettings perception_for(SensorKind sensor, const SectionSettings& sections) {
+  const CoveredArea area = covered_area(sensor);
+  PerceptionSettings settings;
+  settings.roi.x_max_m = area.length_m;
+  settings.roi.y_min_m = -0.5 * area.width_m;
+  settings.roi.y_max_m = 0.5 * area.width_m;
+  settings.sections = sections;
+  return settings;
+}
+
+SensorSpec bench_sensor(SensorKind sensor, bool correlated) {
+  SensorSpec model = sensor == SensorKind::kKinect ? kinect() : bumblebee();
+  if (correlated) model.noise.correlation_px = kBlockMatchingWindow_px;
+  return model;
 }
 
 void judge(const ObstacleCourse& course, const GridMap& map, Table1Row& row) {
@@ -86,36 +138,6 @@ void judge(const ObstacleCourse& course, const GridMap& map, Table1Row& row) {
   }
 }
 
-void measure(SensorKind kind, bool correlated, int configurations, std::uint64_t seed,
-             std::vector<Table1Row>& rows) {
-  SensorSpec model = kind == SensorKind::kKinect ? kinect() : bumblebee();
-  if (correlated) model.noise.correlation_px = kBlockMatchingWindow_px;
-  for (int number = 0; number < configurations; ++number) {
-    const std::uint64_t key = random_key({seed, static_cast<std::uint64_t>(number)});
-    const ObstacleCourse course = random_course(model, area_of(kind), key);
-    DepthSensor sensor(model, key);
-    const auto pixels = sensor.measure(course.shapes, course.T_world_body, 0);
-    for (std::size_t i = 0; i < kGrids.size(); ++i) {
-      MappingSettings mapping;
-      mapping.resolution_m = kVertex_m;
-      FrameStack stack(perception_of(kind, kGrids[i]), mapping, RobotSettings{});
-      stack.see(sensor, pixels, course.T_world_body);
-      judge(course, stack.published(), rows[rows.size() - kGrids.size() + i]);
-    }
-  }
-}
-
-}  // namespace
-
-void HeightErrors::add(double found_m, double true_m) {
-  const bool is_missed = found_m < 0.5 * true_m;
-  const double error_m = is_missed ? true_m : std::fabs(found_m - true_m);
-  ++count;
-  missed += is_missed ? 1 : 0;
-  sum_m += error_m;
-  worst_m = std::max(worst_m, error_m);
-}
-
 PaperRow paper_row(SensorKind sensor, int x_res, int y_res) {
   for (std::size_t i = 0; i < kGrids.size(); ++i)
     if (kGrids[i].x_res == x_res && kGrids[i].y_res == y_res)
@@ -123,22 +145,22 @@ PaperRow paper_row(SensorKind sensor, int x_res, int y_res) {
   return {};
 }
 
-std::vector<Table1Row> measure_table1(int configurations, std::uint64_t seed,
+std::vector<Table1Row> measure_table1(const Table1Options& options, Parallel& parallel,
                                       const std::function<void(const std::string&)>& progress) {
   std::vector<Table1Row> rows;
-  for (const SensorKind sensor : {SensorKind::kKinect, SensorKind::kBumblebee}) {
+  for (const SensorKind sensor : options.sensors) {
     for (const bool correlated : {false, true}) {
-      progress(fmt::format("{}, {} noise: {} configurations",
-                           sensor == SensorKind::kKinect ? "Kinect" : "Bumblebee",
-                           correlated ? "correlated" : "independent", configurations));
-      for (const Grid& grid : kGrids) {
-        rows.emplace_back();
-        rows.back().sensor = sensor;
-        rows.back().x_res = grid.x_res;
-        rows.back().y_res = grid.y_res;
-        rows.back().correlated = correlated;
+      progress(fmt::format("Table 1: {}, {} noise, {} configurations", name_of(sensor),
+                           noise_name(correlated), options.configurations));
+      std::vector<RowsOfGrids> measured(static_cast<std::size_t>(options.configurations));
+      parallel.run(options.configurations, [&](int number, int) {
+        const auto n = static_cast<std::size_t>(number);
+        measured[n] = measure(sensor, correlated, random_key({options.seed, n}));
+      });
+      for (std::size_t i = 0; i < kGrids.size(); ++i) {
+        rows.push_back(measured.front()[i]);
+        for (std::size_t n = 1; n < measured.size(); ++n) rows.back().add(measured[n][i]);
       }
-      measure(sensor, correlated, configurations, seed, rows);
     }
   }
   return rows;

@@ -1,25 +1,22 @@
 #include "tools/bench/table1_command.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "runtime/process/thread_pool.hpp"
+#include "tools/bench/sensor_names.hpp"
 #include "tools/bench/steps.hpp"
 #include "tools/bench/table1.hpp"
 
 namespace floornav {
 namespace {
-
-const char* name_of(SensorKind sensor) {
-  return sensor == SensorKind::kKinect ? "kinect" : "bumblebee";
-}
-
-const char* noise_of(const Table1Row& row) {
-  return row.correlated ? "correlated" : "independent";
-}
 
 double floor_rms_cm(const Table1Row& row) {
   return row.floor_vertices > 0 ? 100.0 * std::sqrt(row.floor_square_m2 / row.floor_vertices) : 0.0;
@@ -38,7 +35,7 @@ void print_text(const std::vector<Table1Row>& rows) {
                          100.0 * e.worst_m, e.missed, e.count);
     };
     fmt::print("{:<10}{:<13}{:2}, {:<3}| {:<32}| {:<32}| {:<6.2f}{:<8.2f}| {:.2f}\n", name_of(row.sensor),
-               noise_of(row), row.x_res, row.y_res, cell(row.near, paper.near_cm),
+               noise_name(row.correlated), row.x_res, row.y_res, cell(row.near, paper.near_cm),
                cell(row.far, paper.far_cm), row.flat.mean_cm(), row.sloped.mean_cm(), floor_rms_cm(row));
   }
 }
@@ -49,7 +46,7 @@ nlohmann::json json_of(const Table1Row& row) {
   return {{"sensor", name_of(row.sensor)},
           {"x_res", row.x_res},
           {"y_res", row.y_res},
-          {"noise", noise_of(row)},
+          {"noise", noise_name(row.correlated)},
           {"near_cm", row.near.mean_cm()},
           {"far_cm", row.far.mean_cm()},
           {"missed", (row.near.missed + row.far.missed) / all},
@@ -69,8 +66,8 @@ void print_steps(const std::vector<StepRow>& rows) {
   fmt::print(" | false per m2\n");
   for (std::size_t i = 0; i < rows.size(); i += kStepDistances_m.size()) {
     const StepRow& row = rows[i];
-    fmt::print("{:<10}{:<13}{:>7}{:>6.0f} |", name_of(row.sensor),
-               row.correlated ? "correlated" : "independent", row.frames, 100.0 * row.height_m);
+    fmt::print("{:<10}{:<13}{:>7}{:>6.0f} |", name_of(row.sensor), noise_name(row.correlated), row.frames,
+               100.0 * row.height_m);
     for (std::size_t k = 0; k < kStepDistances_m.size(); ++k)
       fmt::print("{:>8.0f}", 100.0 * rows[i + k].found / rows[i + k].poses);
     fmt::print(" | {:.3f}\n", row.false_per_m2);
@@ -79,7 +76,7 @@ void print_steps(const std::vector<StepRow>& rows) {
 
 nlohmann::json json_of(const StepRow& row) {
   return {{"sensor", name_of(row.sensor)},
-          {"noise", row.correlated ? "correlated" : "independent"},
+          {"noise", noise_name(row.correlated)},
           {"height_cm", 100.0 * row.height_m},
           {"distance_m", row.distance_m},
           {"frames", row.frames},
@@ -88,22 +85,37 @@ nlohmann::json json_of(const StepRow& row) {
           {"false_per_m2", row.false_per_m2}};
 }
 
-struct Table1Options {
-  int configurations = 20;
-  int step_poses = 20;
-  double plain_m2 = 200.0;
-  std::uint64_t seed = 1;
+struct CommandOptions {
+  std::string sensor = "both";
+  bool full = false;
+  int threads = 2;
+  Table1Options table;
+  StepOptions steps;
   bool json = false;
 };
 
-void run(const Table1Options& options) {
+constexpr int kFullPoses = 200;
+
+void settle(CommandOptions& options) {
+  if (options.sensor == "kinect") options.table.sensors = {SensorKind::kKinect};
+  if (options.sensor == "bumblebee") options.table.sensors = {SensorKind::kBumblebee};
+  options.steps.sensors = options.table.sensors;
+  options.steps.seed = options.table.seed;
+  if (options.full) options.steps.poses = kFullPoses;
+  if (options.full) options.steps.plain_m2 = std::max(options.steps.plain_m2, 1000.0);
+}
+
+void run(CommandOptions& options) {
+  settle(options);
+  ThreadPool pool(options.threads);
   const auto progress = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
-  const auto rows = measure_table1(options.configurations, options.seed, progress);
+  std::vector<Table1Row> rows;
   std::vector<StepRow> steps;
-  if (options.step_poses > 0)
-    steps = measure_steps(options.step_poses, options.plain_m2, options.seed, progress);
+  if (options.table.configurations > 0) rows = measure_table1(options.table, pool, progress);
+  if (options.steps.poses > 0) steps = measure_steps(options.steps, pool, progress);
   if (!options.json) {
-    print_text(rows);
+    fmt::print("seed {}\n", options.table.seed);
+    if (!rows.empty()) print_text(rows);
     if (!steps.empty()) print_steps(steps);
     return;
   }
@@ -118,21 +130,30 @@ void run(const Table1Options& options) {
 void add_table1_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "table1", "Heights of simulated obstacles against the truth, as the paper's Table 1");
-  const auto options = std::make_shared<Table1Options>();
-  command->add_option("--configurations", options->configurations, "Obstacle configurations a row")
-      ->check(CLI::Range(1, 1000))
+  const auto o = std::make_shared<CommandOptions>();
+  o->steps.poses = 10;
+  o->steps.plain_m2 = 200;
+  command->add_option("--sensor", o->sensor)
+      ->check(CLI::IsMember({"kinect", "bumblebee", "both"}))
       ->capture_default_str();
   command
-      ->add_option("--step-poses", options->step_poses,
-                   "Random poses for each step; 0: no steps; 200 take hours")
+      ->add_option("--configurations", o->table.configurations, "Obstacle configurations a row; 0: no table")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command->add_option("--step-poses", o->steps.poses, "Random poses for each step; 0: no steps")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
-  command->add_option("--plain-m2", options->plain_m2, "Floor without steps, for false alarms")
+  command->add_option("--plain-m2", o->steps.plain_m2, "Floor without steps, for false alarms")
       ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of the configurations and the noise")->capture_default_str();
-  command->add_flag("--json", options->json, "For programs");
-  command->callback([options] { run(*options); });
+  command->add_flag("--full", o->full, "200 poses a step and 1000 m2 of plain floor: hours");
+  command
+      ->add_option("--seed", o->table.seed,
+                   "Of the configurations and the noise; tune on others than you print")
+      ->capture_default_str();
+  command->add_option("--threads", o->threads)->check(CLI::Range(1, 256))->capture_default_str();
+  command->add_flag("--json", o->json, "For programs");
+  command->callback([o] { run(*o); });
 }
 
 }  // namespace floornav
