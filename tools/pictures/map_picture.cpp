@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "tools/pictures/cell_color.hpp"
 #include "tools/pictures/top_view.hpp"
@@ -14,6 +15,7 @@ constexpr Color kInk = color(0x26292E);
 constexpr Color kPath = color(0x1668D8);
 constexpr Color kTrajectory = kRobotColor;
 constexpr Color kGoal = color(0xD81E5B);
+constexpr Color kTruth = color(0x0A9396);
 constexpr Color kWhite = color(0xFFFFFF);
 constexpr double kTrajectoryGap_m = 2.0;  // frames of their own maps lie farther apart
 
@@ -24,6 +26,8 @@ Eigen::AlignedBox2d shown_part(const MapPicture& picture) {
   for (const auto& place : picture.trajectory) box.extend(place);
   for (const auto& place : picture.path) box.extend(place);
   if (picture.goal) box.extend(*picture.goal);
+  for (const auto& outline : picture.true_outlines)
+    for (const auto& place : outline) box.extend(place);
   if (picture.assumed_floor) {
     const Eigen::Vector2d reach = Eigen::Vector2d::Constant(picture.assumed_floor->radius_m);
     box.extend(Eigen::Vector2d(picture.assumed_floor->center_m - reach));
@@ -79,6 +83,7 @@ class Key {
 
 constexpr Stroke kTrajectoryStroke{kTrajectory, 1.8, 0.9};
 constexpr Stroke kAssumedStroke{kInk, 1.5, 0.8, 5};
+constexpr Stroke kTruthStroke{kTruth, 1.3, 0.9};
 
 void draw_key(TopView& view, const MapPicture& picture) {
   Key key(view);
@@ -91,6 +96,7 @@ void draw_key(TopView& view, const MapPicture& picture) {
   if (picture.path.size() > 1) key.line({kPath, 3.5}, "path");
   if (picture.goal) key.goal("goal");
   if (picture.assumed_floor) key.line(kAssumedStroke, "assumed floor at start");
+  if (!picture.true_outlines.empty()) key.line(kTruthStroke, "what truly stands there");
 }
 
 }  // namespace
@@ -104,6 +110,8 @@ void write_map_png(const MapPicture& picture, const std::filesystem::path& file)
   paint_cells(view, picture.map);
   view.frame();
   view.line(picture.trajectory, kTrajectoryStroke, kTrajectoryGap_m);
+  for (const auto& outline : picture.true_outlines)
+    view.line(outline, kTruthStroke, std::numeric_limits<double>::infinity());
   if (picture.assumed_floor)
     view.canvas().circle(view.at(picture.assumed_floor->center_m),
                          picture.assumed_floor->radius_m * view.pixels_per_m(), kAssumedStroke);

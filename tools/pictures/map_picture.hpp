@@ -26,6 +26,7 @@ struct MapPicture {
   std::optional<RobotMark> robot;
   std::optional<Eigen::Vector2d> goal;
   std::optional<AssumedDisc> assumed_floor;
+  std::vector<std::vector<Eigen::Vector2d>> true_outlines;  ///< closed, of what truly stands there
   std::string title;
   std::string subtitle;
   double longest_px = 1000;

@@ -32,7 +32,8 @@ constexpr Micros kGoalPeriod = 500ms;
 constexpr Micros kControlPeriod = 50ms;
 constexpr Micros kLookPeriod = 50ms;  ///< at collisions
 constexpr double kGoalTolerance_m = 0.2;
-constexpr double kGoalSlack_m = 0.1;  ///< for the noise of what the robot believes
+constexpr double kPersonalSpace_m = 0.9;  ///< from the robot's centre
+constexpr double kGoalSlack_m = 0.1;      ///< for the noise of what the robot believes
 constexpr double kSecondsPerMetre = 8.0;
 constexpr double kSecondsAtLeast = 60.0;
 constexpr double kElsewhere_m = 0.15;  ///< beside the path before: another way
@@ -62,10 +63,10 @@ bool leads_elsewhere(const path_t& path, const path_t& before) {
 class ClosedLoop {
  public:
   ClosedLoop(const RandomWorld& world, const RobotSettings& robot, const ClosedLoopSettings& settings,
-             std::uint64_t seed, LogWriter* log)
+             std::uint64_t seed, RunRecord* record)
       : world_(world),
         settings_(settings),
-        log_(log),
+        record_(record),
         perception_({}, robot, serial_),
         mapper_({}, robot),
         planner_({}, robot),
@@ -78,7 +79,8 @@ class ClosedLoop {
         follower_(robot),
         out_({"simulate", 1}),
         shortest_m_(shortest_way_m(world.truth, robot.radius_m, {0, 0}, *world.scene.goal_m, kGoalTolerance_m)
-                        .value_or(world.scene.goal_m->norm())) {}
+                        .value_or(world.scene.goal_m->norm())),
+        people_s_(world.scene.people.size(), 0.0) {}
 
   ClosedLoopResult run() {
     ClosedLoopResult result;
@@ -88,8 +90,9 @@ class ClosedLoop {
       control();
       base_.move(command_, seconds_of(kStep));
       if (base_.speed_mps() > 0.01 || std::abs(base_.turn_radps()) > 0.01) last_motion_ = now_;
+      walk();
       if (now_ % kLookPeriod == Micros(0)) {
-        result.reason = base_.trouble(world_.scene.fixed);
+        result.reason = look_for_trouble();
         if (!result.reason.empty()) return finish(result, Outcome::kCollided);
       }
       const bool says_reached = follower_.path() && follower_.path()->status == path_t::REACHED;
@@ -107,6 +110,35 @@ class ClosedLoop {
 
   [[nodiscard]] Pose body() const { return body_on_floor(world_.scene.fixed, base_.state()); }
 
+  /// People go on, but for those who would come too near to the robot.
+  void walk() {
+    const Eigen::Vector2d robot = base_.state().position_m;
+    for (std::size_t i = 0; i < people_s_.size(); ++i) {
+      const Person& person = world_.scene.people[i];
+      const double next_s = people_s_[i] + seconds_of(kStep);
+      const double then = (person.place_m(next_s) - robot).norm();
+      if (then > kPersonalSpace_m || then > (person.place_m(people_s_[i]) - robot).norm())
+        people_s_[i] = next_s;
+    }
+  }
+
+  std::string look_for_trouble() {
+    if (record_ != nullptr) record_->driven_m.push_back(base_.state().position_m);
+    std::string trouble = base_.trouble(world_.scene.fixed);
+    if (!trouble.empty() || people_s_.empty()) return trouble;
+    Shapes people;
+    people.ground = world_.scene.fixed.ground;
+    people.cylinders = world_.scene.people_at(people_s_);
+    return base_.touched(people).empty() ? "" : "hit a person";
+  }
+
+  [[nodiscard]] Shapes world_now() const {
+    Shapes shapes = world_.scene.fixed;
+    const auto people = world_.scene.people_at(people_s_);
+    shapes.cylinders.insert(shapes.cylinders.end(), people.begin(), people.end());
+    return shapes;
+  }
+
   /// The planner's word is checked: reached is where the robot truly is near the goal, the odometry's noise
   /// allowed for.
   [[nodiscard]] Outcome outcome_at_rest() const {
@@ -115,6 +147,10 @@ class ClosedLoop {
   }
 
   ClosedLoopResult finish(ClosedLoopResult result, Outcome outcome) const {
+    if (record_ != nullptr) {
+      record_->end = base_.state();
+      for (const path_point_t& p : last_path_.points) record_->path_m.emplace_back(p.x, p.y);
+    }
     result.outcome = outcome;
     if (result.reason.empty() && follower_.path()) result.reason = follower_.path()->reason;
     result.seconds = seconds_of(now_);
@@ -134,7 +170,7 @@ class ClosedLoop {
       send(settings_.pose_latency_s);
     }
     if (now_ % micros_of(1.0 / settings_.sensor.rate_hz) == Micros(0)) {
-      const auto pixels = sensor_.measure(world_.scene.at(seconds_of(now_)), body(), frame_);
+      const auto pixels = sensor_.measure(world_now(), body(), frame_);
       const bool is_kinect = settings_.sensor.kind == SensorKind::kKinect;
       out_.publish(is_kinect ? channel::kKinectCloud : channel::kBumblebeeCloud,
                    cloud_message(sensor_, pixels, utime_us, frame_++));
@@ -170,9 +206,13 @@ class ClosedLoop {
       const LogEvent event{stamp_us, first->second.channel, first->second.bytes};
       on_the_way_.erase(first);
       if (event.channel == channel::kPose) believe(event);
-      if (log_ != nullptr) log_->write(event.timestamp_us, event.channel, event.bytes);
+      write(event.timestamp_us, event.channel, event.bytes);
       executor_.deliver(event);
     }
+  }
+
+  void write(std::int64_t stamp_us, const std::string& channel, const std::vector<std::uint8_t>& bytes) {
+    if (record_ != nullptr && record_->log != nullptr) record_->log->write(stamp_us, channel, bytes);
   }
 
   void believe(const LogEvent& event) {
@@ -183,7 +223,12 @@ class ClosedLoop {
   }
 
   void hear(const EncodedMessage& message, Micros) {
-    if (log_ != nullptr) log_->write(kDriveStart_us + now_.count(), message.channel, message.bytes);
+    write(kDriveStart_us + now_.count(), message.channel, message.bytes);
+    if (record_ != nullptr && message.channel == channel::kGridMap) {
+      grid_map_t map;
+      map.decode(message.bytes.data(), 0, static_cast<int>(message.bytes.size()));
+      record_->map.apply(map);
+    }
     if (message.channel != channel::kPath) return;
     path_t path;
     path.decode(message.bytes.data(), 0, static_cast<int>(message.bytes.size()));
@@ -204,7 +249,7 @@ class ClosedLoop {
 
   const RandomWorld& world_;
   const ClosedLoopSettings& settings_;
-  LogWriter* log_;
+  RunRecord* record_;
   Serial serial_;
   PerceptionNode perception_;
   MapperNode mapper_;
@@ -218,6 +263,7 @@ class ClosedLoop {
   Outbox out_;
   double shortest_m_;
 
+  std::vector<double> people_s_;  ///< how long each has walked
   Micros now_{0};
   Micros last_motion_{0};
   std::int64_t frame_ = 0;
@@ -233,8 +279,8 @@ class ClosedLoop {
 }  // namespace
 
 ClosedLoopResult drive_world(const RandomWorld& world, const RobotSettings& robot,
-                             const ClosedLoopSettings& settings, std::uint64_t seed, LogWriter* log) {
-  return ClosedLoop(world, robot, settings, seed, log).run();
+                             const ClosedLoopSettings& settings, std::uint64_t seed, RunRecord* record) {
+  return ClosedLoop(world, robot, settings, seed, record).run();
 }
 
 }  // namespace floornav

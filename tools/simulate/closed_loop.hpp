@@ -2,12 +2,15 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "mapping/node/grid_map_message.hpp"
 #include "runtime/geometry/robot.hpp"
 #include "runtime/process/log_writer.hpp"
 #include "tools/simulator/odometry.hpp"
 #include "tools/simulator/random_world.hpp"
 #include "tools/simulator/sensor_spec.hpp"
+#include "tools/simulator/trajectory.hpp"
 
 namespace floornav {
 
@@ -34,9 +37,18 @@ struct ClosedLoopResult {
   Eigen::Vector2d end_m{0, 0};
 };
 
+/// What is kept of a run on request.
+struct RunRecord {
+  LogWriter* log = nullptr;  ///< gets every message
+  GridMapReceiver map;       ///< as last published
+  std::vector<Eigen::Vector2d> driven_m;
+  std::vector<Eigen::Vector2d> path_m;  ///< the last one
+  PlanarState end;
+};
+
 /// Drives a robot through a world with perception, mapper and planner in one process and in virtual time. The
-/// same arguments give the same run. `log`, where there is one, gets every message.
+/// same arguments give the same run. People who walk there wait while the robot is in their way.
 ClosedLoopResult drive_world(const RandomWorld& world, const RobotSettings& robot,
-                             const ClosedLoopSettings& settings, std::uint64_t seed, LogWriter* log);
+                             const ClosedLoopSettings& settings, std::uint64_t seed, RunRecord* record);
 
 }  // namespace floornav

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,8 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/process/thread_pool.hpp"
+#include "tools/progress/progress.hpp"
 #include "tools/simulate/closed_loop.hpp"
-#include "tools/simulate/drive_base.hpp"
+#include "tools/simulate/run_picture.hpp"
 
 namespace floornav {
 namespace {
@@ -23,12 +25,14 @@ struct ClosedLoopOptions {
   int worlds = 20;
   std::uint64_t seed = 1;
   double difficulty = 0.5;
-  int width = 160;
+  int width = 320;
   double camera_pitch_deg = 30.0;  ///< sees the floor from the robot's bumper on
   int threads = 2;
   bool exact_pose = false;
   bool json = false;
+  int people = 0;
   std::string log;
+  std::string picture;
   ClosedLoopSettings settings;
 };
 
@@ -48,12 +52,16 @@ struct Tally {
   int stopped = 0;
   int collided = 0;
   double length_ratio = 0;  ///< median over the worlds reached
+  int replans = 0;          ///< in all
+  double seconds = 0;       ///< in all, virtual
 };
 
 Tally tally_of(const std::vector<ClosedLoopResult>& results) {
   Tally tally;
   std::vector<double> ratios;
   for (const ClosedLoopResult& r : results) {
+    tally.replans += r.replans;
+    tally.seconds += r.seconds;
     if (r.outcome == Outcome::kStopped) ++tally.stopped;
     if (r.outcome == Outcome::kCollided) ++tally.collided;
     if (r.outcome != Outcome::kReached) continue;
@@ -69,17 +77,35 @@ Tally tally_of(const std::vector<ClosedLoopResult>& results) {
 
 std::vector<ClosedLoopResult> drive_all(const ClosedLoopOptions& options, const RobotSettings& robot) {
   std::vector<ClosedLoopResult> results(static_cast<std::size_t>(options.worlds));
-  std::optional<LogWriter> log;
-  if (!options.log.empty()) log.emplace(options.log);
   ThreadPool pool(options.threads);
+  std::mutex mutex;
+  int done = 0;
+  Progress progress("worlds");
   pool.run(options.worlds, [&](int index, int) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(index);
-    const RandomWorld world = random_world(seed, options.difficulty, robot);
-    results[static_cast<std::size_t>(index)] =
-        drive_world(world, robot, options.settings, seed, log ? &*log : nullptr);
+    const RandomWorld world = random_world(seed, options.difficulty, options.people, robot);
+    results[static_cast<std::size_t>(index)] = drive_world(world, robot, options.settings, seed, nullptr);
+    const std::scoped_lock lock(mutex);
+    progress.at(++done, options.worlds);
   });
-  if (log) log->close();
   return results;
+}
+
+/// One world, with its log and its picture where they are asked for.
+ClosedLoopResult drive_recorded(const ClosedLoopOptions& options, const RobotSettings& robot) {
+  const RandomWorld world = random_world(options.seed, options.difficulty, options.people, robot);
+  std::optional<LogWriter> log;
+  if (!options.log.empty()) log.emplace(options.log);
+  RunRecord record;
+  record.log = log ? &*log : nullptr;
+  const ClosedLoopResult result = drive_world(world, robot, options.settings, options.seed, &record);
+  if (log) log->close();
+  if (options.picture.empty()) return result;
+  const std::string words =
+      fmt::format("{} after {:.1f} s and {:.2f} m (shortest {:.2f} m): {}", name_of(result.outcome),
+                  result.seconds, result.travelled_m, result.shortest_m, result.reason);
+  write_run_picture(world, robot, record, words, options.picture);
+  return result;
 }
 
 void print_text(const ClosedLoopOptions& options, const std::vector<ClosedLoopResult>& results) {
@@ -92,30 +118,32 @@ void print_text(const ClosedLoopOptions& options, const std::vector<ClosedLoopRe
                r.end_m.y());
   }
   const Tally tally = tally_of(results);
+  fmt::print("Kinect of {} px at {} Hz, {} deg down; difficulty {}, {} people a world\n", options.width,
+             options.settings.sensor.rate_hz, options.camera_pitch_deg, options.difficulty, options.people);
   fmt::print("{} worlds: {} reached, {} stopped, {} collided; driven / shortest: median {:.2f}\n",
              results.size(), tally.reached, tally.stopped, tally.collided, tally.length_ratio);
 }
 
 void run(ClosedLoopOptions& options) {
-  if (!options.log.empty() && options.worlds != 1)
-    throw std::invalid_argument("--log: for one world, --worlds 1");
+  const bool recorded = !options.log.empty() || !options.picture.empty();
+  if (recorded && options.worlds != 1)
+    throw std::invalid_argument("--log and --picture are of one world: --worlds 1 --seed N");
   RobotSettings robot;
   robot.radius_m = kRobotRadius_m;
   options.settings.sensor = kinect(options.width);
   options.settings.sensor.rate_hz = 10.0;
   options.settings.sensor.T_body_sensor = mounted(0.0, 0.0, kCameraHeight_m, options.camera_pitch_deg);
   if (options.exact_pose) options.settings.pose_noise = {};
-  const auto results = drive_all(options, robot);
+  const auto results = recorded ? std::vector{drive_recorded(options, robot)} : drive_all(options, robot);
   if (!options.json) {
     print_text(options, results);
     return;
   }
   const Tally tally = tally_of(results);
-  const nlohmann::json line{{"worlds", options.worlds},
-                            {"reached", tally.reached},
-                            {"stopped", tally.stopped},
-                            {"collided", tally.collided},
-                            {"length_ratio", tally.length_ratio}};
+  const nlohmann::json line{
+      {"worlds", options.worlds},   {"reached", tally.reached},           {"stopped", tally.stopped},
+      {"collided", tally.collided}, {"length_ratio", tally.length_ratio}, {"seed", options.seed},
+      {"width", options.width},     {"replans", tally.replans},           {"seconds", tally.seconds}};
   fmt::print("{}\n", line.dump());
 }
 
@@ -146,7 +174,11 @@ void add_closed_loop_command(CLI::App& app) {
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   command->add_flag("--exact-pose", o->exact_pose, "No noise of the pose");
+  command->add_option("--people", o->people, "Who walk through each world; they wait for the robot")
+      ->check(CLI::Range(0, 20))
+      ->capture_default_str();
   command->add_option("--log", o->log, "Every message of the run, with --worlds 1");
+  command->add_option("--picture", o->picture, "PNG of the run: its map over the truth, with --worlds 1");
   command->add_flag("--json", o->json, "For programs");
   command->callback([o] { run(*o); });
 }

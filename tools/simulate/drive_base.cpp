@@ -31,7 +31,9 @@ void DriveBase::move(const DriveCommand& command, double step_s) {
   travelled_m_ += std::fabs(speed_mps_) * step_s;
 }
 
-std::string DriveBase::touched(const Shapes& world, const Pose& T_world_body) const {
+std::string DriveBase::touched(const Shapes& world) const {
+  const Undercarriage hubs{.wheel_reach_m = 0.0};  // a tyre beside an edge has not dropped yet
+  const Pose T_world_body = body_on_floor(world, state_, hubs);
   const int columns = static_cast<int>(std::ceil(kLength_m / kSample_m));
   const int rows = static_cast<int>(std::ceil(kWidth_m / kSample_m));
   for (int i = 0; i <= columns; ++i) {
@@ -66,8 +68,7 @@ std::string DriveBase::stepped(const Shapes& world) {
 
 std::string DriveBase::trouble(const Shapes& world) {
   const std::string step = stepped(world);
-  const Undercarriage hubs{.wheel_reach_m = 0.0};  // a tyre beside an edge has not dropped yet
-  return step.empty() ? touched(world, body_on_floor(world, state_, hubs)) : step;
+  return step.empty() ? touched(world) : step;
 }
 
 }  // namespace floornav

@@ -25,12 +25,13 @@ class DriveBase {
   /// What is wrong with where it stands now, against the true world: empty, or what its rectangle of length x
   /// width touches, or what a wheel has climbed or fallen down since the last call.
   std::string trouble(const Shapes& world);
+  /// The same of what its rectangle touches alone.
+  [[nodiscard]] std::string touched(const Shapes& world) const;
 
   static constexpr double kLength_m = 0.83;  ///< MobileRobots PowerBot
   static constexpr double kWidth_m = 0.63;
 
  private:
-  [[nodiscard]] std::string touched(const Shapes& world, const Pose& T_world_body) const;
   std::string stepped(const Shapes& world);
 
   RobotSettings robot_;

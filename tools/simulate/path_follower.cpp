@@ -68,7 +68,10 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-bool at_end(const path_t& path, const Eigen::Vector2d& position) {
+/// Whether more must be seen before the robot can go on.
+bool must_look(const path_t& path, const Eigen::Vector2d& position) {
+  if (path.status == path_t::NO_PATH || path.status == path_t::GOAL_BLOCKED) return true;
+  if (path.status != path_t::FRONTIER) return false;
   return path.points.empty() || (point_of(path, path.points.size() - 1) - position).norm() < kAtEnd_m;
 }
 
@@ -96,9 +99,9 @@ DriveCommand PathFollower::look_around(const PlanarState& believed) {
 
 DriveCommand PathFollower::command(const PlanarState& believed, double speed_mps, Micros now) {
   if (!path_) return {};
-  if (path_->status != path_t::FOLLOWING && path_->status != path_t::FRONTIER) return {};
   if (now - received_ > std::chrono::milliseconds(path_->valid_for_ms)) return {};
-  if (path_->status == path_t::FRONTIER && at_end(*path_, believed.position_m)) return look_around(believed);
+  if (must_look(*path_, believed.position_m)) return look_around(believed);
+  if (path_->status != path_t::FOLLOWING && path_->status != path_t::FRONTIER) return {};
   if (path_->points.empty()) return {};
   const PlaceOnPath here = nearest_place(*path_, believed.position_m);
   const Eigen::Vector2d target = go_on(*path_, here, kLookAhead_m + kLookAhead_s * speed_mps).position;

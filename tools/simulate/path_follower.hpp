@@ -16,8 +16,8 @@ struct DriveCommand {
 };
 
 /// A simple controller: pure pursuit of the newest PATH at the speeds that it allows; stands still without a
-/// valid one. Where a path ends at the frontier of what was seen, the robot turns once around itself there,
-/// towards the path's heading first, so that its sensor sees more.
+/// valid one. Where a path ends at the frontier of what was seen, or there is none since the way is blocked,
+/// the robot turns once around itself, towards the path's heading first, so that its sensor sees more.
 class PathFollower {
  public:
   explicit PathFollower(const RobotSettings& robot) : robot_(robot) {}

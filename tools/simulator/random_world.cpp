@@ -1,6 +1,7 @@
 #include "tools/simulator/random_world.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -18,6 +19,8 @@ constexpr double kFreeAtGoal_m = 0.9;
 constexpr double kShortest_m = 3.5;  ///< from start to goal, as the crow flies
 constexpr double kWall_m = 1.2;
 constexpr int kMostTries = 200;
+constexpr double kShoulder_m = 0.3;
+constexpr double kShortestWalk_m = 2.0;
 
 /// Fills a room with things of which the difficulty decides how many and which.
 class Furnisher {
@@ -122,15 +125,53 @@ class Furnisher {
   Scene scene_;
 };
 
+bool walkable(const TruthGrid& truth, const Person& person) {
+  const Eigen::Vector2d way = person.to_m - person.from_m;
+  const int samples = static_cast<int>(way.norm() / truth.lattice.pitch_m);
+  for (int i = 0; i <= samples; ++i) {
+    const Eigen::Vector2d middle = person.from_m + way * i / std::max(samples, 1);
+    for (const double x : {-kShoulder_m, 0.0, kShoulder_m}) {
+      for (const double y : {-kShoulder_m, 0.0, kShoulder_m}) {
+        const TruthCell* const cell = truth.at(middle + Eigen::Vector2d(x, y));
+        if (cell == nullptr || !cell->drivable) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// People whose ways are free of things, and who do not stand at the start or at the goal.
+void add_people(std::uint64_t key, int count, RandomWorld& world) {
+  RandomStream random(key);
+  Scene& scene = world.scene;
+  const auto place = [&] {
+    const double x = random.uniform(scene.area_min_m.x(), scene.area_max_m.x());
+    return Eigen::Vector2d(x, random.uniform(scene.area_min_m.y(), scene.area_max_m.y()));
+  };
+  const auto in_the_way = [&](const Eigen::Vector2d& p) {
+    return p.norm() < kFreeAtStart_m || (p - *scene.goal_m).norm() < kFreeAtGoal_m;
+  };
+  for (int tries = 0; tries < kMostTries * count && std::ssize(scene.people) < count; ++tries) {
+    Person person;
+    person.from_m = place();
+    person.to_m = place();
+    person.speed_mps = random.uniform(0.5, 1.2);
+    if ((person.to_m - person.from_m).norm() < kShortestWalk_m) continue;
+    if (in_the_way(person.from_m) || in_the_way(person.to_m) || !walkable(world.truth, person)) continue;
+    scene.people.push_back(person);
+  }
+}
+
 }  // namespace
 
-RandomWorld random_world(std::uint64_t seed, double difficulty, const RobotSettings& robot) {
+RandomWorld random_world(std::uint64_t seed, double difficulty, int people, const RobotSettings& robot) {
   for (std::uint64_t attempt = 0; attempt < kMostTries; ++attempt) {
     RandomWorld world;
     world.scene = Furnisher(random_key({seed, attempt, 0x3081D}), difficulty).furnish();
     world.truth = truth_of(world.scene, robot, kTruth_m, {0, 0});
     if (!shortest_way_m(world.truth, robot.radius_m + kMargin_m, {0, 0}, *world.scene.goal_m, 0.0)) continue;
     world.scene.name = "random world " + std::to_string(seed);
+    add_people(random_key({seed, attempt, 0x3081E}), people, world);
     return world;
   }
   throw std::runtime_error("no world with a way through it for seed " + std::to_string(seed));

@@ -16,7 +16,7 @@ struct RandomWorld {
 
 /// `difficulty` 0: a wide room with a few boxes; 1: a crowded one with low obstacles, thin legs, steps, a
 /// ramp and a drop. Rooms without a way from start to goal that leaves 10 cm beside the robot are thrown
-/// away: the same seed always makes the same world.
-RandomWorld random_world(std::uint64_t seed, double difficulty, const RobotSettings& robot);
+/// away: the same seed always makes the same world. `people` walk to and fro over its floor.
+RandomWorld random_world(std::uint64_t seed, double difficulty, int people, const RobotSettings& robot);
 
 }  // namespace floornav

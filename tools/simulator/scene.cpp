@@ -16,14 +16,15 @@ double to_and_fro(double x) {
   return turn <= 1.0 ? turn : 2.0 - turn;
 }
 
+double walked_m(const Person& person, double time_s) {
+  return std::max(0.0, time_s - person.start_s) * person.speed_mps;
+}
+
 void add_person(const Person& person, double ground_m, double time_s, std::vector<Cylinder>& cylinders) {
-  const Eigen::Vector2d way = person.to_m - person.from_m;
-  const double length_m = way.norm();
-  const Eigen::Vector2d ahead = way / length_m;
+  const Eigen::Vector2d ahead = (person.to_m - person.from_m).normalized();
   const Eigen::Vector2d left(-ahead.y(), ahead.x());
-  const double walked_m = std::max(0.0, time_s - person.start_s) * person.speed_mps;
-  const Eigen::Vector2d body = person.from_m + way * to_and_fro(walked_m / length_m);
-  const double foot_m = kStepReach_m * (2.0 * to_and_fro(walked_m / kStride_m) - 1.0);
+  const Eigen::Vector2d body = person.place_m(time_s);
+  const double foot_m = kStepReach_m * (2.0 * to_and_fro(walked_m(person, time_s) / kStride_m) - 1.0);
   const double h = person.height_m;
   for (const double side : {-1.0, 1.0})
     cylinders.push_back(
@@ -34,10 +35,22 @@ void add_person(const Person& person, double ground_m, double time_s, std::vecto
 
 }  // namespace
 
+Eigen::Vector2d Person::place_m(double time_s) const {
+  const Eigen::Vector2d way = to_m - from_m;
+  return from_m + way * to_and_fro(walked_m(*this, time_s) / way.norm());
+}
+
+std::vector<Cylinder> Scene::people_at(std::span<const double> times_s) const {
+  std::vector<Cylinder> cylinders;
+  for (std::size_t i = 0; i < people.size(); ++i)
+    add_person(people[i], fixed.ground.z_m(people[i].from_m), times_s[i], cylinders);
+  return cylinders;
+}
+
 Shapes Scene::at(double time_s) const {
   Shapes shapes = fixed;
-  for (const Person& person : people)
-    add_person(person, fixed.ground.z_m(person.from_m), time_s, shapes.cylinders);
+  const auto walkers = people_at(std::vector<double>(people.size(), time_s));
+  shapes.cylinders.insert(shapes.cylinders.end(), walkers.begin(), walkers.end());
   return shapes;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct Person {
   double speed_mps = 1.0;
   double height_m = 1.75;
   double start_s = 0;  ///< stands at `from` until then
+
+  /// The middle of the body after walking (and waiting for start_s) for a time.
+  [[nodiscard]] Eigen::Vector2d place_m(double time_s) const;
 };
 
 /// The way that the robot is driven in an open loop: a smooth curve (cubic B-spline) that follows the
@@ -38,6 +42,8 @@ struct Scene {
 
   /// Everything that stands there at a time since the start.
   [[nodiscard]] Shapes at(double time_s) const;
+  /// The people alone, each at a time of their own.
+  [[nodiscard]] std::vector<Cylinder> people_at(std::span<const double> times_s) const;
 };
 
 }  // namespace floornav

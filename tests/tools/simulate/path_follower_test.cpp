@@ -68,6 +68,19 @@ TEST(PathFollower, TurnsOnTheSpotTowardsAPathBehind) {
   EXPECT_NE(command.turn_radps, 0.0);
 }
 
+TEST(PathFollower, LooksAroundWhereThereIsNoWayAndNotWhereSomethingTouchesIt) {
+  const RobotSettings robot;
+  PathFollower follower(robot);
+  path_t none{};
+  none.valid_for_ms = 250;
+  none.status = path_t::NO_PATH;
+  follower.accept(none, 0us);
+  EXPECT_NE(follower.command({}, 0.0, 10ms).turn_radps, 0.0);
+  none.status = path_t::START_BLOCKED;
+  follower.accept(none, 20ms);
+  EXPECT_EQ(follower.command({}, 0.0, 30ms).turn_radps, 0.0);
+}
+
 TEST(PathFollower, TurnsOnceAroundItselfAtTheFrontierTowardsThePathsHeading) {
   const RobotSettings robot;
   PathFollower follower(robot);
