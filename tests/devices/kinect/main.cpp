@@ -28,11 +28,8 @@ struct RunOptions {
   std::string control = "virtual-kinect.control";
   int max_frames = 400;
   int transfer_ms = 33;
-  std::array<double, 2> goal_m = {3.0, 0.0};
   double seconds = 0;
-  double drive_seconds = 0;
-  int may_lose = 0;
-  std::string lcm_url;
+  LiveTask drive;
   std::vector<std::string> command;
 };
 
@@ -75,9 +72,10 @@ int run(const RunOptions& options) {
   const std::atomic<bool>& stop = stop_on_signals();
   const pid_t child = start(options.command, std::filesystem::absolute(options.control).string());
   int code = 0;
-  if (options.drive_seconds > 0) {
-    const LiveReport report = drive_live(kinect, scene, options.goal_m, options.drive_seconds,
-                                         options.may_lose, lcm_url(options.lcm_url), stop);
+  if (options.drive.seconds > 0) {
+    LiveTask task = options.drive;
+    task.lcm_url = lcm_url(task.lcm_url);
+    const LiveReport report = drive_live(kinect, scene, task, stop);
     fmt::print("{}{}\n", report.text,
                report.flaw.empty() ? "all frames came through" : "FLAW: " + report.flaw);
     code = report.flaw.empty() ? 0 : 1;
@@ -113,11 +111,14 @@ void add_run(CLI::App& app, RunOptions& options, int& code) {
   sub->add_option("--frames", options.max_frames, "at most so many of the log")->capture_default_str();
   sub->add_option("--transfer-ms", options.transfer_ms, "from exposure to arrival")->capture_default_str();
   sub->add_option("--seconds", options.seconds, "end COMMAND after so long");
-  sub->add_option("--drive", options.drive_seconds,
+  sub->add_option("--drive", options.drive.seconds,
                   "be the robot's base for so many seconds too: POSE and GOAL out; then end and report");
-  sub->add_option("--may-lose", options.may_lose, "frames that --drive forgives")->capture_default_str();
-  sub->add_option("--goal", options.goal_m, "m, local frame")->delimiter(',')->capture_default_str();
-  sub->add_option("--lcm-url", options.lcm_url, "bus of --drive");
+  sub->add_option("--unplug-at", options.drive.unplug_at_s,
+                  "unplug the camera after so many seconds of --drive, for 1.5 s");
+  sub->add_option("--may-lose", options.drive.may_lose, "frames that --drive forgives")
+      ->capture_default_str();
+  sub->add_option("--goal", options.drive.goal_m, "m, local frame")->delimiter(',')->capture_default_str();
+  sub->add_option("--lcm-url", options.drive.lcm_url, "bus of --drive");
   sub->add_option("COMMAND", options.command, "after --")->required();
   sub->callback([&] { code = run(options); });
 }

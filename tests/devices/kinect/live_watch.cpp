@@ -1,0 +1,137 @@
+#include "tests/devices/kinect/live_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "floornav/grid_map_t.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace floornav {
+namespace {
+
+template <class Clock>
+std::int64_t now_us() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now().time_since_epoch()).count();
+}
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+std::string text_of(const health_t& health) {
+  std::string text = fmt::format("HEALTH of {}: state {} {}\n", health.source, health.state, health.reason);
+  for (const drop_t& drop : health.drops) text += fmt::format("    {}: {}\n", drop.cause, drop.count);
+  for (const latency_t& l : health.latencies)
+    text += fmt::format("    {}: p50 {:.2f} ms, p99 {:.2f} ms, max {:.2f} ms\n", l.what, l.p50_ms, l.p99_ms,
+                        l.max_ms);
+  return text;
+}
+
+std::string text_of(const std::optional<double>& ms) {
+  return ms ? fmt::format("{:.0f} ms", *ms) : "never";
+}
+
+}  // namespace
+
+void LiveWatch::Reaction::end() {
+  if (since && !ms) ms = std::chrono::duration<double, std::milli>(Clock::now() - *since).count();
+}
+
+LiveWatch::LiveWatch(LcmTransport& bus, VirtualKinect& kinect, int period_us)
+    : bus_(bus), kinect_(kinect), period_us_(period_us) {
+  inbox_.subscribe<depth_cloud_t>(channel::kKinectCloud, Keep::kAll,
+                                  [this](const auto& m, Micros) { see(m); });
+  inbox_.subscribe<surfels_t>(channel::kSurfels, Keep::kAll, [this](const auto& m, Micros) { see(m); });
+  inbox_.subscribe<grid_map_t>(channel::kGridMap, Keep::kAll, [](const auto&, Micros) {});
+  inbox_.subscribe<path_t>(channel::kPath, Keep::kAll, [this](const auto& m, Micros) { see(m); });
+  inbox_.subscribe<health_t>(channel::kHealth, Keep::kAll,
+                             [this](const auto& m, Micros) { health_[m.source] = m; });
+  for (const auto& [name, keep] : inbox_.channels()) bus.subscribe(name);
+}
+
+void LiveWatch::receive(std::chrono::milliseconds timeout) {
+  bus_.receive(timeout, [this](std::string_view name, std::span<const std::uint8_t> bytes) {
+    inbox_.deliver(name, bytes, Micros(now_us<Clock>()));
+  });
+}
+
+void LiveWatch::unplugged() {
+  stop_.begin();
+}
+
+void LiveWatch::plugged() {
+  frames_.begin();
+  moves_.begin();
+}
+
+void LiveWatch::see(const depth_cloud_t& cloud) {
+  const std::int64_t now = now_us<Clock>();
+  frames_.end();
+  if (clouds_++ > 0) frame_gaps_ += cloud.frame - last_frame_ - 1;
+  last_frame_ = cloud.frame;
+  const std::int64_t exposure = cloud.utime - now_us<std::chrono::system_clock>() + now;
+  const std::int64_t step = (exposure - kinect_->origin_us + period_us_ / 2) / period_us_;
+  const RaisedFrame& raised = kinect_->records[static_cast<std::size_t>(step) % ControlBlock::kRecords];
+  const double ms = static_cast<double>(now - raised.raised_us) * 1e-3;
+  if (ms >= 0 && ms < 1000) latency_ms_.push_back(ms);
+}
+
+void LiveWatch::see(const surfels_t& surfels) {
+  if (surfels.frame != last_surfels_) ++surfel_frames_;
+  last_surfels_ = surfels.frame;
+}
+
+void LiveWatch::see(const path_t& path) {
+  ++path_status_[path.status];
+  const bool moves = path.status == path_t::FOLLOWING || path.status == path_t::FRONTIER;
+  if (moves)
+    moves_.end();
+  else
+    stop_.end();
+}
+
+std::int64_t LiveWatch::lost_on_bus() const {
+  return inbox_.counts().at(channel::kKinectCloud).lost;
+}
+
+std::string LiveWatch::table(std::int64_t raised) const {
+  std::string text =
+      fmt::format("frames of the device {}, clouds {}, lost in the driver {}, lost on the bus {}\n", raised,
+                  clouds_, frame_gaps_ - lost_on_bus(), lost_on_bus());
+  text +=
+      fmt::format("device's frame to message received: median {:.2f} ms, p99 {:.2f} ms, max {:.2f} ms\n",
+                  percentile(latency_ms_, 0.5), percentile(latency_ms_, 0.99), percentile(latency_ms_, 1));
+  if (stop_.since) text += fmt::format("unplugged: the planner stops after {}\n", text_of(stop_.ms));
+  if (frames_.since)
+    text += fmt::format("plugged in again: frames after {}, the robot may drive after {}\n",
+                        text_of(frames_.ms), text_of(moves_.ms));
+  text += fmt::format("frames with surfels {}\n", surfel_frames_);
+  for (const auto& [name, counts] : inbox_.counts())
+    text += fmt::format("{:14} received {:6}  lost {:4}  malformed {}\n", name, counts.received, counts.lost,
+                        counts.malformed);
+  for (const auto& [status, count] : path_status_) text += fmt::format("PATH status {}: {}\n", status, count);
+  for (const auto& [source, health] : health_) text += text_of(health);
+  return text;
+}
+
+std::string LiveWatch::flaw(std::int64_t raised, std::int64_t may_lose) const {
+  constexpr int kAtTheEnds = 2;  // the device may be one frame ahead or behind at either end
+  for (const auto& [name, counts] : inbox_.counts())
+    if (counts.received == 0) return fmt::format("nothing came on {}", name);
+  for (const char* source : {"kinect", "perception", "mapper", "planner"})
+    if (!health_.contains(source)) return fmt::format("nothing heard of {}", source);
+  if (std::abs(raised - clouds_ - frame_gaps_) > kAtTheEnds)
+    return fmt::format("{} frames of the device, but {} clouds and {} told as lost", raised, clouds_,
+                       frame_gaps_);
+  if (stop_.since && !stop_.ms) return "the planner does not stop where the camera is gone";
+  if (frames_.since && !frames_.ms) return "no frame after the camera was plugged in again";
+  return frame_gaps_ > may_lose ? fmt::format("{} frames lost", frame_gaps_) : "";
+}
+
+}  // namespace floornav
