@@ -113,6 +113,7 @@ std::vector<std::string> OpenNiDevice::uris() {
   openni::Array<openni::DeviceInfo> infos;
   openni::OpenNI::enumerateDevices(&infos);
   std::vector<std::string> uris;
+  uris.reserve(static_cast<std::size_t>(infos.getSize()));
   for (int i = 0; i < infos.getSize(); ++i) uris.emplace_back(infos[i].getUri());
   return uris;
 }
@@ -151,7 +152,7 @@ DepthStream OpenNiDevice::open() {
     if (!device_.isFile()) choose_mode();
     set_registration();
     depth_.setMirroringEnabled(false);  // a file refuses, and some devices: describe() sees what came of it
-    const DepthStream stream = describe();
+    DepthStream stream = describe();
     if (device_.isFile()) play_file();
     if (!options_.record.empty()) record();
     check(depth_.start(), "the depth stream does not start");
