@@ -1,9 +1,9 @@
-# OpenCV's component packages bring no OpenCVConfig.cmake: opencv::core, opencv::imgproc and opencv::imgcodecs.
+# OpenCV's component packages bring no OpenCVConfig.cmake: opencv::core, imgproc, imgcodecs and calib3d.
 if(TARGET opencv::core)
   return()
 endif()
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
-foreach(component core imgproc imgcodecs)
+foreach(component core imgproc imgcodecs calib3d)
   find_library(OPENCV_${component} opencv_${component} REQUIRED)
   add_library(opencv::${component} INTERFACE IMPORTED GLOBAL)
   target_include_directories(opencv::${component} SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})

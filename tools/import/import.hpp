@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/bumblebee/stereo_matcher.hpp"
 #include "runtime/geometry/pinhole.hpp"
 #include "tools/import/imported_sensor.hpp"
 
@@ -90,5 +91,17 @@ struct OniImport {
   FixedMounting mounting;
 };
 ImportReport import_oni(const OniImport& what, const ImportTarget& target);
+
+/// Two folders of raw stereo images, left and right, taken in pairs by name, and their calibration
+/// (read_stereo_calibration). The mounting is that of the real left camera.
+struct StereoImport {
+  std::filesystem::path left;
+  std::filesystem::path right;
+  std::string calibration;
+  std::string calibration_block;
+  StereoSettings matching;
+  FixedMounting mounting;
+};
+ImportReport import_stereo(const StereoImport& what, const ImportTarget& target);
 
 }  // namespace floornav

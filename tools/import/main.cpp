@@ -121,6 +121,15 @@ A recording of OpenNI2 (NiViewer2, floornav-kinect --record-oni). Frames are pla
 Example:
   floornav-import oni test.oni -o test.lcm --height 1.0 --pitch 10 --roll 0)";
 
+constexpr const char* kStereoExample = R"(
+The raw images of LEFT and RIGHT go in pairs by name, else by order. The calibration is OpenCV's YAML (as
+floornav-calibrate writes it), libbot's BotParam with --block, or two sensor.yaml of a EuRoC data set. Height, pitch
+and roll are the real left camera's. Frames are placed as by "depth".
+
+Example:
+  floornav-import stereo cam0 cam1 -o room.lcm --calibration cam0_sensor.yaml,cam1_sensor.yaml \
+                  --height 0.95 --pitch 22.8 --roll 0)";
+
 void add_tum(CLI::App& app, CommonOptions& common, TumImport& what) {
   CLI::App& command = *app.add_subcommand("tum", "A TUM RGB-D folder: depth.txt and groundtruth.txt");
   command.add_option("DIR", what.folder, "The folder")->required();
@@ -187,6 +196,30 @@ void add_oni(CLI::App& app, CommonOptions& common, OniImport& what) {
   });
 }
 
+void add_stereo(CLI::App& app, CommonOptions& common, StereoImport& what) {
+  CLI::App& command =
+      *app.add_subcommand("stereo", "Folders of raw stereo pairs without poses: matched here");
+  command.add_option("LEFT", what.left, "Folder of the left images")->required();
+  command.add_option("RIGHT", what.right, "Folder of the right images")->required();
+  command.add_option("--calibration", what.calibration, "Of the pair of cameras")
+      ->required()
+      ->type_name("FILE");
+  command.add_option("--block", what.calibration_block, "The stereo camera's name in a BotParam file");
+  command.add_option("--matcher", what.matching.matcher, "half, sgbm or block")
+      ->check(CLI::IsMember({"half", "sgbm", "block"}))
+      ->capture_default_str();
+  command.add_option("--nearest", what.matching.nearest_m, "Nearest distance that is matched, m")
+      ->check(CLI::Range(0.1, 10.0))
+      ->capture_default_str();
+  command.add_option("-o,--output", common.log, "The LCM log to write")->required()->type_name("LOG");
+  add_mounting(command, what.mounting);
+  command.footer(kStereoExample);
+  command.callback([&] {
+    common.sensor = "bumblebee";
+    run(common, [&](const ImportTarget& target) { return import_stereo(what, target); });
+  });
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app("Makes an LCM log of depth clouds and poses from recordings in other forms");
   app.name("floornav-import");
@@ -201,11 +234,13 @@ int run_program(int argc, char** argv) {
   PcdImport pcd;
   LcmImport lcm;
   OniImport oni;
+  StereoImport stereo;
   add_tum(app, common, tum);
   add_depth(app, common, depth);
   add_pcd(app, common, pcd);
   add_lcm(app, common, lcm);
   add_oni(app, common, oni);
+  add_stereo(app, common, stereo);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -48,22 +48,22 @@ void Recording::pose(std::int64_t utime_us, const Pose& T_world_body) {
   ++poses_;
 }
 
-void Recording::check_size(const DepthImage& image) {
+void Recording::check_size(int width, int height) {
   if (clouds_ == 0) {
-    width_ = image.width;
-    height_ = image.height;
+    width_ = width;
+    height_ = height;
   }
-  if (image.width != width_ || image.height != height_)
+  if (width != width_ || height != height_)
     throw std::runtime_error(
-        fmt::format("is {} x {} px, the first one was {} x {}", image.width, image.height, width_, height_));
+        fmt::format("is {} x {} px, the first one was {} x {}", width, height, width_, height_));
 }
 
-void Recording::cloud(std::int64_t utime_us, const DepthImage& image, const Pinhole& camera, double scale_m,
-                      const Pose& T_body_sensor) {
-  check_size(image);
+depth_cloud_t Recording::begin_cloud(std::int64_t utime_us, int width, int height, const Pinhole& camera,
+                                     const Pose& T_body_sensor) {
+  check_size(width, height);
   Pinhole sized = camera;
-  sized.width = image.width;
-  sized.height = image.height;
+  sized.width = width;
+  sized.height = height;
   check_intrinsics(sized);
   if (clouds_ == 0) session_ = utime_us;
 
@@ -74,21 +74,46 @@ void Recording::cloud(std::int64_t utime_us, const DepthImage& image, const Pinh
   message.seq = ++clouds_;
   message.sensor = sensor_.kind;
   message.frame = clouds_;
-  message.width = static_cast<std::int16_t>(image.width);
-  message.height = static_cast<std::int16_t>(image.height);
+  message.width = static_cast<std::int16_t>(width);
+  message.height = static_cast<std::int16_t>(height);
   message.first_row = 0;
   message.rows = message.height;
   message.fx = camera.fx;
   message.fy = camera.fy;
   message.cx = camera.cx;
   message.cy = camera.cy;
+  pose_to_arrays(T_body_sensor, message.sensor_pos, message.sensor_orientation);
+  return message;
+}
+
+void Recording::write(const depth_cloud_t& cloud) {
+  log_.write(cloud.utime, sensor_.channel, encoded(cloud));
+}
+
+void Recording::cloud(std::int64_t utime_us, const DepthImage& image, const Pinhole& camera, double scale_m,
+                      const Pose& T_body_sensor) {
+  depth_cloud_t message = begin_cloud(utime_us, image.width, image.height, camera, T_body_sensor);
   message.baseline = static_cast<float>(sensor_.baseline_m);
   message.disparity_sigma = static_cast<float>(sensor_.disparity_sigma_px(camera.fx));
-  pose_to_arrays(T_body_sensor, message.sensor_pos, message.sensor_orientation);
   message.meaning = depth_cloud_t::DEPTH;
   message.scale = static_cast<float>(scale_m);
   pack_pixels(image.pixels, message);
-  log_.write(utime_us, sensor_.channel, encoded(message));
+  write(message);
+}
+
+void Recording::cloud(std::int64_t utime_us, const DisparityImage& image, const Pinhole& camera,
+                      double baseline_m, const Pose& T_body_sensor) {
+  constexpr float kUsualSigma_px = 0.1F;  // for whoever does not read the uncertainties
+  depth_cloud_t message = begin_cloud(utime_us, image.width, image.height, camera, T_body_sensor);
+  message.baseline = static_cast<float>(baseline_m);
+  message.disparity_sigma = kUsualSigma_px;
+  message.meaning = depth_cloud_t::DISPARITY;
+  message.scale = DisparityImage::kUnit_px;
+  message.uncertainty_scale = DisparityImage::kSigmaUnit_px;
+  message.uncertainty = image.uncertainty;
+  message.uncertainty_size = static_cast<std::int32_t>(image.uncertainty.size());
+  pack_pixels(image.pixels, message);
+  write(message);
 }
 
 void Recording::finish() {

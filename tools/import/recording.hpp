@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "drivers/bumblebee/stereo_matcher.hpp"
+#include "floornav/depth_cloud_t.hpp"
 #include "runtime/geometry/pinhole.hpp"
 #include "runtime/geometry/pose.hpp"
 #include "runtime/process/log_writer.hpp"
@@ -24,9 +26,12 @@ class Recording {
 
   /// The body in the local frame. A time that is not after the last pose's is left out.
   void pose(std::int64_t utime_us, const Pose& T_world_body);
-  /// One frame; `scale_m` is m a count. Throws std::runtime_error where its size is not the first one's, or
-  /// the camera does not go with it.
+  /// One frame of depths; `scale_m` is m a count. Throws std::runtime_error where its size is not the first
+  /// one's, or the camera does not go with it.
   void cloud(std::int64_t utime_us, const DepthImage& image, const Pinhole& camera, double scale_m,
+             const Pose& T_body_sensor);
+  /// One frame of disparities of a camera with this baseline, each with its uncertainty. Throws likewise.
+  void cloud(std::int64_t utime_us, const DisparityImage& image, const Pinhole& camera, double baseline_m,
              const Pose& T_body_sensor);
   void finish();
 
@@ -34,7 +39,10 @@ class Recording {
   [[nodiscard]] std::int64_t poses() const { return poses_; }
 
  private:
-  void check_size(const DepthImage& image);
+  depth_cloud_t begin_cloud(std::int64_t utime_us, int width, int height, const Pinhole& camera,
+                            const Pose& T_body_sensor);
+  void check_size(int width, int height);
+  void write(const depth_cloud_t& cloud);
 
   std::filesystem::path file_;
   std::filesystem::path unfinished_;

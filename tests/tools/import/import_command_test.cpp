@@ -55,7 +55,7 @@ TEST_F(ImportCommand, WritesTheLogAndSaysWhatIsInIt) {
 }
 
 TEST_F(ImportCommand, HasHelpWithAnExampleForEverySubCommand) {
-  for (const char* sub : {"tum", "depth", "pcd"}) {
+  for (const char* sub : {"tum", "depth", "pcd", "stereo"}) {
     const Outcome outcome = run_program({"floornav-import", sub, "--help"});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_NE(outcome.out.find(std::string("floornav-import ") + sub), std::string::npos);
@@ -103,6 +103,27 @@ TEST_F(ImportCommand, KeepsAnEarlierLogWhereItFails) {
   const std::string before = file_content(folder_ / "out.lcm");
   EXPECT_NE(run_program(depth_command("empty", "50,50,32,24")).exit_code, 0);
   EXPECT_EQ(file_content(folder_ / "out.lcm"), before);
+}
+
+TEST_F(ImportCommand, RefusesStereoPairsThatDoNotGoTogether) {
+  const auto command = [&](const std::string& right, const std::string& calibration) {
+    return std::vector<std::string>{
+        "floornav-import", "stereo",   path("depth"), path(right), "-o", path("out.lcm"), "--calibration",
+        path(calibration), "--height", "0.5",         "--pitch",   "20", "--roll",        "0"};
+  };
+  std::ofstream(path("good.yaml")) << "%YAML:1.0\nimage_size: [640, 480]\n"
+                                      "M1: [520, 0, 320, 0, 520, 240, 0, 0, 1]\nD1: [0, 0, 0, 0]\n"
+                                      "M2: [520, 0, 320, 0, 520, 240, 0, 0, 1]\nD2: [0, 0, 0, 0]\n"
+                                      "R: [1, 0, 0, 0, 1, 0, 0, 0, 1]\nT: [-0.12, 0, 0]\n";
+  std::ofstream(path("swapped.yaml")) << "%YAML:1.0\nimage_size: [640, 480]\n"
+                                         "M1: [520, 0, 320, 0, 520, 240, 0, 0, 1]\nD1: [0, 0, 0, 0]\n"
+                                         "M2: [520, 0, 320, 0, 520, 240, 0, 0, 1]\nD2: [0, 0, 0, 0]\n"
+                                         "R: [1, 0, 0, 0, 1, 0, 0, 0, 1]\nT: [0.12, 0, 0]\n";
+  expect_refused(command("depth", "none.yaml"), "none.yaml: cannot be opened");
+  expect_refused(command("depth", "swapped.yaml"), "swapped");
+  expect_refused(command("depth", "good.yaml"),
+                 "0.png: image is 64 x 48 px, the calibration is for 640 x 480");
+  expect_refused(command("empty", "good.yaml"), "empty: holds no");
 }
 
 }  // namespace

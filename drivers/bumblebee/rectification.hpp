@@ -1,0 +1,39 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "drivers/bumblebee/stereo_calibration.hpp"
+#include "runtime/geometry/pinhole.hpp"
+
+namespace floornav {
+
+/// Turns a pair of raw images into those of two ideal cameras of equal intrinsics side by side: a point is
+/// seen in the same row of both, in the left one `fx baseline / Z` columns farther right.
+class Rectification {
+ public:
+  /// Throws std::runtime_error for a calibration that check() refuses.
+  explicit Rectification(const StereoCalibration& calibration);
+
+  /// Images of the calibration's size, 8 bit, one channel. Throws std::runtime_error for others.
+  void apply(const cv::Mat& raw_left, const cv::Mat& raw_right, cv::Mat& left, cv::Mat& right) const;
+
+  /// The ideal left camera.
+  [[nodiscard]] const Pinhole& camera() const { return camera_; }
+  [[nodiscard]] double baseline_m() const { return baseline_m_; }
+  /// Rotates axes of the real left camera into those of the ideal one.
+  [[nodiscard]] const cv::Matx33d& R_ideal_left() const { return R_ideal_left_; }
+
+ private:
+  struct Table {
+    cv::Mat whole;     ///< where each ideal pixel comes from: whole pixels
+    cv::Mat fraction;  ///< and 1/32
+  };
+  cv::Size size_;
+  Table left_;
+  Table right_;
+  Pinhole camera_;
+  double baseline_m_ = 0;
+  cv::Matx33d R_ideal_left_ = cv::Matx33d::eye();
+};
+
+}  // namespace floornav

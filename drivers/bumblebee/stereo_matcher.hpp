@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
+
+#include "drivers/bumblebee/disparity_refinement.hpp"
+#include "runtime/geometry/pinhole.hpp"
+#include "runtime/geometry/settings.hpp"
+
+namespace floornav {
+
+/// How pairs of images become disparities.
+struct StereoSettings {
+  std::string matcher = "half";   ///< half: SGBM at half resolution, refined at full; sgbm: SGBM at full,
+                                  ///< refined; block: StereoBM
+  double nearest_m = 0.6;         ///< of what is matched; nearer takes more time
+  int refinement_window_px = 11;  ///< side of the window in which disparities are refined
+  double max_sigma_px = 0.5;      ///< disparities less certain are left out
+  int speckle_px = 200;           ///< patches of disparity smaller than this are left out
+};
+
+template <class Visitor>
+void visit_settings(Visitor& visit, StereoSettings& s) {
+  visit("matcher", s.matcher, {"half", "sgbm", "block"});
+  visit("nearest_m", s.nearest_m, Allowed{0.1, 10.0});
+  visit("refinement_window_px", s.refinement_window_px, Allowed{3, 31});
+  visit("max_sigma_px", s.max_sigma_px, Allowed{0.01, 4.0});
+  visit("speckle_px", s.speckle_px, Allowed{0, 10000});
+}
+
+/// Disparities of the left image, row by row.
+struct DisparityImage {
+  static constexpr float kUnit_px = 1.0F / 128;       ///< of a pixel's count
+  static constexpr float kSigmaUnit_px = 1.0F / 128;  ///< of an uncertainty's count
+
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint16_t> pixels;      ///< kUnit_px; 0: none
+  std::vector<std::uint8_t> uncertainty;  ///< kSigmaUnit_px, 1 sigma; 0 only where the pixel is 0
+};
+
+/// Matches rectified pairs.
+class StereoMatcher {
+ public:
+  /// Throws std::runtime_error where `nearest_m` asks for more disparities than the image is wide.
+  StereoMatcher(const StereoSettings& settings, const Pinhole& camera, double baseline_m);
+
+  /// Rectified images of the camera's size, 8-bit grey.
+  void match(const cv::Mat& left, const cv::Mat& right, DisparityImage& image);
+
+ private:
+  void match_coarsely(const cv::Mat& left, const cv::Mat& right);
+  void write(DisparityImage& image) const;
+
+  StereoSettings settings_;
+  int shrink_ = 1;  ///< the coarse images are so many times smaller
+  cv::Ptr<cv::StereoMatcher> coarse_matcher_;
+  DisparityRefinement refinement_;
+  cv::Mat small_left_, small_right_, coarse_;
+  cv::Mat1f left_, right_, disparity_, sigma_;
+};
+
+}  // namespace floornav
