@@ -40,7 +40,7 @@ FloorPerception::FloorPerception(const PerceptionSettings& settings, const Robot
       memory_(static_cast<std::size_t>(grid_.count())) {}
 
 FloorEvidence FloorPerception::process(const DepthFrame& frame, const Pose& T_world_body, Parallel& parallel,
-                                       const Admission& admit) {
+                                       const Admission& admit, const StageEnd& end_stage) {
   const SensorView view(frame, T_world_body);
   section_scratch_.resize(static_cast<std::size_t>(parallel.workers()));
   cell_scratch_.resize(static_cast<std::size_t>(parallel.workers()));
@@ -51,6 +51,7 @@ FloorEvidence FloorPerception::process(const DepthFrame& frame, const Pose& T_wo
   evidence.lattice.pitch_m = settings_.cells.pitch_m;
 
   evidence.pixels = clipper_.clip(frame, view, parallel, cloud_);
+  end_stage(PerceptionStage::kRoi);
   results_.assign(static_cast<std::size_t>(grid_.count()), {});
   keep_.assign(cloud_.size(), 0);
   label_.assign(cloud_.size(), kOutlier);
@@ -59,15 +60,18 @@ FloorEvidence FloorPerception::process(const DepthFrame& frame, const Pose& T_wo
     const std::vector<int> sections = admit_row(row, admit);
     for (const int section : sections)
       remove_section_outliers(section, frame.camera, parallel, evidence.pixels);
+    end_stage(PerceptionStage::kOutliers);
     parallel.run(static_cast<int>(sections.size()), [&](int index, int worker) {
       find_section_planes(sections[static_cast<std::size_t>(index)], frame.utime_us, view,
                           section_scratch_[static_cast<std::size_t>(worker)]);
     });
     agree_on_floor(sections);
+    end_stage(PerceptionStage::kPlanes);
   }
   collect_surfels(view, evidence);
   collect_cells(frame, view, parallel, evidence);
   remember(view, evidence);
+  end_stage(PerceptionStage::kCells);
   return evidence;
 }
 

@@ -26,6 +26,12 @@ namespace floornav {
 /// False: the section is skipped and carries no evidence.
 using Admission = std::function<bool(std::int64_t work_ns)>;
 
+/// What a frame goes through: outliers and planes once for each row of sections.
+enum class PerceptionStage { kRoi, kOutliers, kPlanes, kCells };
+
+/// Told when a stage has ended, by whoever measures.
+using StageEnd = std::function<void(PerceptionStage)>;
+
 /// Finds the floor and whatever else is plane in depth frames of one sensor (sections 3 and 4 of the paper).
 /// Keeps nothing of the world but each section's last known floor normal, which cuts the next frame's search.
 /// The same frames give the same evidence, bit for bit, with any number of workers.
@@ -35,8 +41,9 @@ class FloorPerception {
   FloorPerception(const PerceptionSettings& settings, const RobotSettings& robot);
 
   /// `T_world_body` is the body's pose in the local world frame at the frame's time.
-  FloorEvidence process(const DepthFrame& frame, const Pose& T_world_body, Parallel& parallel,
-                        const Admission& admit);
+  FloorEvidence process(
+      const DepthFrame& frame, const Pose& T_world_body, Parallel& parallel, const Admission& admit,
+      const StageEnd& end_stage = [](PerceptionStage) {});
 
  private:
   struct SectionMemory {

@@ -5,6 +5,7 @@
 
 #include "tools/bench/driver_command.hpp"
 #include "tools/bench/outliers_command.hpp"
+#include "tools/bench/perception_command.hpp"
 #include "tools/bench/planner_command.hpp"
 #include "tools/bench/table1_command.hpp"
 
@@ -14,6 +15,7 @@ int main(int argc, char** argv) {
   try {
     floornav::add_driver_command(app);
     floornav::add_outliers_command(app);
+    floornav::add_perception_command(app);
     floornav::add_planner_command(app);
     floornav::add_table1_command(app);
     CLI11_PARSE(app, argc, argv);
