@@ -5,6 +5,7 @@
 
 #include "perception/cell_points.hpp"
 #include "perception/evidence.hpp"
+#include "perception/surfels.hpp"
 
 namespace floornav {
 
@@ -12,6 +13,7 @@ namespace floornav {
 struct CellScratch {
   std::vector<std::int32_t> surfel_points;  ///< a surfel: its points in the cell, 0 between calls
   std::vector<float> heights;
+  std::vector<PlaneSums> sums;
 };
 
 /// Sums up what a cell's points say: which surfel decides it (the highest that holds a fair share of them),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace floornav {
 
@@ -11,26 +12,27 @@ namespace {
 constexpr float kMinUpright = 0.5F;
 /// A ray this close to the plane's own direction says nothing about where it meets it.
 constexpr float kMinFacing = 0.02F;
-
-/// A plane as the cells need it.
-struct PlaneInWorld {
-  InverseDepthPlane plane;
-  Eigen::Vector3f normal;  ///< sensor frame
-  float upright;           ///< z of the normal in the world frame
-  std::int16_t surfel;
-};
+constexpr std::int32_t kPointsPerPiece = 16384;
 
 }  // namespace
 
 void CellSorter::sort(const RoiCloud& cloud, std::span<const std::int16_t> label,
                       std::span<const SectionResult> sections, const SensorView& view,
                       const CellWindow& window, Parallel& parallel, CellPoints& out) {
-  cell_.assign(cloud.size(), -1);
+  cell_.resize(cloud.size());
   placed_.resize(cloud.size());
-  parallel.run(static_cast<int>(sections.size()), [&](int section, int) {
-    const SectionResult& result = sections[static_cast<std::size_t>(section)];
-    if (result.done) place_section(cloud, label, section, result, view, window);
-  });
+  cut_pieces(cloud, sections);
+  find_planes(sections, view);
+  const auto place = [&](int number, int) {
+    const Piece& piece = pieces_[static_cast<std::size_t>(number)];
+    const SectionResult& result = sections[static_cast<std::size_t>(piece.section)];
+    if (result.done) {
+      place_points(cloud, label, piece, result.first_surfel, view, window);
+    } else {
+      std::fill(cell_.begin() + piece.begin, cell_.begin() + piece.end, -1);
+    }
+  };
+  parallel.run(static_cast<int>(pieces_.size()), std::ref(place));
 
   out.cell_end.assign(static_cast<std::size_t>(window.count()) + 1, 0);
   for (const std::int32_t cell : cell_)
@@ -44,20 +46,32 @@ void CellSorter::sort(const RoiCloud& cloud, std::span<const std::int16_t> label
   out.cell_end.pop_back();
 }
 
-void CellSorter::place_section(const RoiCloud& cloud, std::span<const std::int16_t> label, int section,
-                               const SectionResult& result, const SensorView& view,
-                               const CellWindow& window) {
+void CellSorter::cut_pieces(const RoiCloud& cloud, std::span<const SectionResult> sections) {
+  pieces_.clear();
+  for (int section = 0; section < static_cast<int>(sections.size()); ++section) {
+    const std::int32_t end = cloud.section_end[static_cast<std::size_t>(section)];
+    for (std::int32_t p = cloud.section_begin(section); p < end; p += kPointsPerPiece)
+      pieces_.push_back({section, p, std::min(p + kPointsPerPiece, end)});
+  }
+}
+
+void CellSorter::find_planes(std::span<const SectionResult> sections, const SensorView& view) {
+  const Eigen::Matrix3f R = view.T_world_sensor.linear().cast<float>();
+  planes_.clear();
+  for (const SectionResult& result : sections)
+    for (const SectionPlane& found : result.planes) {
+      const Eigen::Vector3f normal = found.plane.normal();
+      planes_.push_back({found.plane, normal, (R * normal).z()});
+    }
+}
+
+void CellSorter::place_points(const RoiCloud& cloud, std::span<const std::int16_t> label, const Piece& piece,
+                              std::int16_t first_surfel, const SensorView& view, const CellWindow& window) {
   const Eigen::Matrix3f R = view.T_world_sensor.linear().cast<float>();
   const Eigen::Vector3d sensor = view.T_world_sensor.translation();
-  std::vector<PlaneInWorld> planes;
-  for (std::size_t k = 0; k < result.planes.size(); ++k) {
-    const Eigen::Vector3f normal = result.planes[k].plane.normal();
-    planes.push_back({result.planes[k].plane, normal, (R * normal).z(),
-                      static_cast<std::int16_t>(result.first_surfel + static_cast<std::int16_t>(k))});
-  }
-  for (std::int32_t p = cloud.section_begin(section);
-       p < cloud.section_end[static_cast<std::size_t>(section)]; ++p) {
+  for (std::int32_t p = piece.begin; p < piece.end; ++p) {
     const auto i = static_cast<std::size_t>(p);
+    cell_[i] = -1;
     if (label[i] != kNoPlane && label[i] < 0) continue;
     const Eigen::Vector3f ray(cloud.ray_x[i], cloud.ray_y[i], 1.0F);
     const float sigma_depth = cloud.z[i] * cloud.z[i] / cloud.certainty[i];
@@ -65,10 +79,10 @@ void CellSorter::place_section(const RoiCloud& cloud, std::span<const std::int16
     CellPoint point{-1, 0.0F, 0.0F, 0.0F, 0.0F};
     float per_depth = (R * ray).z();  // vertical metres a metre of depth
     if (label[i] >= 0) {
-      const PlaneInWorld& plane = planes[static_cast<std::size_t>(label[i])];
+      point.surfel = static_cast<std::int16_t>(first_surfel + label[i]);
+      const PlaneInWorld& plane = planes_[static_cast<std::size_t>(point.surfel)];
       const float facing = -plane.normal.dot(ray);
       if (facing > kMinFacing) depth = 1.0F / plane.plane.inverse_depth(ray.x(), ray.y());
-      point.surfel = plane.surfel;
       if (plane.upright > kMinUpright) {
         per_depth = facing / plane.upright;
         point.rise_m = (depth - cloud.z[i]) * per_depth;

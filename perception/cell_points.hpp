@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "perception/cell_window.hpp"
+#include "perception/evidence.hpp"
 #include "perception/roi_cloud.hpp"
 #include "perception/section_planes.hpp"
 #include "perception/sensor_view.hpp"
@@ -37,6 +38,7 @@ struct CellPoints {
 struct SectionResult {
   bool done = false;
   std::vector<SectionPlane> planes;
+  std::vector<Surfel> surfels;    ///< of the planes
   std::int16_t first_surfel = 0;  ///< the surfel of planes[k] is first_surfel + k
 };
 
@@ -51,12 +53,27 @@ class CellSorter {
             Parallel& parallel, CellPoints& out);
 
  private:
-  void place_section(const RoiCloud& cloud, std::span<const std::int16_t> label, int section,
-                     const SectionResult& result, const SensorView& view, const CellWindow& window);
+  /// Some points of one section.
+  struct Piece {
+    int section;
+    std::int32_t begin, end;
+  };
+  /// A plane as the cells need it.
+  struct PlaneInWorld {
+    InverseDepthPlane plane;
+    Eigen::Vector3f normal;  ///< sensor frame
+    float upright;           ///< z of the normal in the world frame
+  };
+  void cut_pieces(const RoiCloud& cloud, std::span<const SectionResult> sections);
+  void find_planes(std::span<const SectionResult> sections, const SensorView& view);
+  void place_points(const RoiCloud& cloud, std::span<const std::int16_t> label, const Piece& piece,
+                    std::int16_t first_surfel, const SensorView& view, const CellWindow& window);
 
   float roughness_m_;
-  std::vector<std::int32_t> cell_;  ///< a point of the cloud: its cell, -1 none
-  std::vector<CellPoint> placed_;   ///< a point of the cloud
+  std::vector<Piece> pieces_;
+  std::vector<PlaneInWorld> planes_;  ///< a surfel
+  std::vector<std::int32_t> cell_;    ///< a point of the cloud: its cell, -1 none
+  std::vector<CellPoint> placed_;     ///< a point of the cloud
 };
 
 }  // namespace floornav

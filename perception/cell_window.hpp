@@ -27,6 +27,7 @@ class CellWindow {
     origin_ = low;
     size_x_ = high.ix - low.ix + 1;
     size_y_ = high.iy - low.iy + 1;
+    per_m_ = 1.0 / lattice.pitch_m;
   }
 
   [[nodiscard]] std::int32_t count() const { return size_x_ * size_y_; }
@@ -34,10 +35,17 @@ class CellWindow {
 
   /// Number of the cell at a place of the local world frame, -1 outside the window.
   [[nodiscard]] std::int32_t at(double x_m, double y_m) const {
-    const CellIndex cell = lattice_.cell_of(x_m, y_m);
-    const std::int32_t ix = cell.ix - origin_.ix, iy = cell.iy - origin_.iy;
-    if (ix < 0 || iy < 0 || ix >= size_x_ || iy >= size_y_) return -1;
-    return iy * size_x_ + ix;
+    return at_pitches(x_m * per_m_ - origin_.ix, y_m * per_m_ - origin_.iy);
+  }
+  /// The same for a place counted in pitches from the window's corner.
+  template <class Number>
+  [[nodiscard]] std::int32_t at_pitches(Number x, Number y) const {
+    if (!(x >= 0 && y >= 0 && x < static_cast<Number>(size_x_) && y < static_cast<Number>(size_y_)))
+      return -1;
+    return static_cast<std::int32_t>(y) * size_x_ + static_cast<std::int32_t>(x);
+  }
+  [[nodiscard]] Eigen::Vector2d pitches_of(const Eigen::Vector3d& p) const {
+    return {p.x() * per_m_ - origin_.ix, p.y() * per_m_ - origin_.iy};
   }
   [[nodiscard]] CellIndex cell(std::int32_t number) const {
     return {origin_.ix + number % size_x_, origin_.iy + number / size_x_};
@@ -48,6 +56,7 @@ class CellWindow {
   CellIndex origin_;
   std::int32_t size_x_ = 0;
   std::int32_t size_y_ = 0;
+  double per_m_ = 1.0;  ///< cells a metre
 };
 
 }  // namespace floornav

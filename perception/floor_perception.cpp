@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -32,6 +33,7 @@ FloorPerception::FloorPerception(const PerceptionSettings& settings, const Robot
     : settings_(checked(settings)),
       robot_(robot),
       grid_(settings.roi, settings.sections),
+      measurer_(settings.roi.roughness_m),
       clipper_(settings.roi, grid_),
       outlier_remover_(settings.outliers),
       plane_finder_(settings.planes, robot),
@@ -39,64 +41,90 @@ FloorPerception::FloorPerception(const PerceptionSettings& settings, const Robot
       tracer_(settings.roi, settings.cells, grid_),
       memory_(static_cast<std::size_t>(grid_.count())) {}
 
-FloorEvidence FloorPerception::process(const DepthFrame& frame, const Pose& T_world_body, Parallel& parallel,
-                                       const Admission& admit, const StageEnd& end_stage) {
+const FloorEvidence& FloorPerception::process(const DepthFrame& frame, const Pose& T_world_body,
+                                              Parallel& parallel, const Admission& admit,
+                                              const StageEnd& end_stage) {
   const SensorView view(frame, T_world_body);
-  section_scratch_.resize(static_cast<std::size_t>(parallel.workers()));
-  cell_scratch_.resize(static_cast<std::size_t>(parallel.workers()));
-  FloorEvidence evidence;
-  evidence.utime_us = frame.utime_us;
-  evidence.T_world_body = T_world_body;
-  evidence.T_body_sensor = frame.T_body_sensor;
-  evidence.lattice.pitch_m = settings_.cells.pitch_m;
-
-  evidence.pixels = clipper_.clip(frame, view, parallel, cloud_);
+  begin(frame, view, parallel);
   end_stage(PerceptionStage::kRoi);
-  results_.assign(static_cast<std::size_t>(grid_.count()), {});
-  keep_.assign(cloud_.size(), 0);
-  label_.assign(cloud_.size(), kOutlier);
-  floor_agreement_.clear();
   for (int row = 0; row < grid_.x_res(); ++row) {
-    const std::vector<int> sections = admit_row(row, admit);
-    for (const int section : sections)
-      remove_section_outliers(section, frame.camera, parallel, evidence.pixels);
+    admit_row(row, admit);
+    for (const int section : row_sections_) remove_section_outliers(section, frame.camera, parallel);
     end_stage(PerceptionStage::kOutliers);
-    parallel.run(static_cast<int>(sections.size()), [&](int index, int worker) {
-      find_section_planes(sections[static_cast<std::size_t>(index)], frame.utime_us, view,
-                          section_scratch_[static_cast<std::size_t>(worker)]);
-    });
-    agree_on_floor(sections);
+    find_row_planes(frame.utime_us, view, parallel);
     end_stage(PerceptionStage::kPlanes);
   }
-  collect_surfels(view, evidence);
-  collect_cells(frame, view, parallel, evidence);
-  remember(view, evidence);
+  collect_surfels();
+  collect_cells(view, parallel);
+  remember(view);
   end_stage(PerceptionStage::kCells);
-  return evidence;
+  return evidence_;
+}
+
+/// Makes the frame's points; empties what the frame before has left.
+void FloorPerception::begin(const DepthFrame& frame, const SensorView& view, Parallel& parallel) {
+  const auto workers = static_cast<std::size_t>(parallel.workers());
+  section_scratch_.resize(workers);
+  cell_scratch_.resize(workers);
+  evidence_.utime_us = frame.utime_us;
+  evidence_.T_world_body = view.T_world_body;
+  evidence_.T_body_sensor = frame.T_body_sensor;
+  evidence_.lattice.pitch_m = settings_.cells.pitch_m;
+  measurer_.begin(frame);
+  evidence_.pixels = clipper_.clip(frame, measurer_, view, parallel, cloud_);
+  results_.resize(static_cast<std::size_t>(grid_.count()));
+  for (SectionResult& result : results_) {
+    result.done = false;
+    result.planes.clear();
+    result.surfels.clear();
+  }
+  keep_.resize(cloud_.size());
+  label_.assign(cloud_.size(), kOutlier);
+  floor_agreement_.clear();
 }
 
 /// The row's sections that there is time for.
-std::vector<int> FloorPerception::admit_row(int row, const Admission& admit) {
-  std::vector<int> admitted;
+void FloorPerception::admit_row(int row, const Admission& admit) {
+  row_sections_.clear();
   for (int iy = 0; iy < grid_.y_res(); ++iy) {
     const int section = row * grid_.y_res() + iy;
     if (!admit(kWorkPerPoint_ns * cloud_.section_size(section))) continue;
     results_[static_cast<std::size_t>(section)].done = true;
-    admitted.push_back(section);
+    row_sections_.push_back(section);
   }
-  return admitted;
 }
 
-void FloorPerception::remove_section_outliers(int section, const Pinhole& camera, Parallel& parallel,
-                                              PixelCounts& counts) {
+void FloorPerception::remove_section_outliers(int section, const Pinhole& camera, Parallel& parallel) {
   const auto begin = static_cast<std::size_t>(cloud_.section_begin(section));
   const auto size = static_cast<std::size_t>(cloud_.section_size(section));
   const auto part = [&](const auto& values) { return std::span(values).subspan(begin, size); };
   const std::span<std::uint8_t> keep = std::span(keep_).subspan(begin, size);
   const ImagePoints points{{part(cloud_.x), part(cloud_.y), part(cloud_.z)}, part(cloud_.pixel), camera};
-  counts.outliers += outlier_remover_.remove(points, parallel, keep);
-  for (std::size_t i = 0; i < size; ++i)
-    if (keep[i]) label_[begin + i] = kNoPlane;
+  evidence_.pixels.outliers += outlier_remover_.remove(points, parallel, keep);
+  for (std::size_t i = 0; i < size; ++i) label_[begin + i] = keep[i] ? kNoPlane : kOutlier;
+}
+
+/// The largest section first, so that the workers end together; then the floors agree, and the surfels are
+/// made.
+void FloorPerception::find_row_planes(std::int64_t utime_us, const SensorView& view, Parallel& parallel) {
+  std::sort(row_sections_.begin(), row_sections_.end(), [this](int a, int b) {
+    const std::int32_t size_a = cloud_.section_size(a), size_b = cloud_.section_size(b);
+    return size_a != size_b ? size_a > size_b : a < b;
+  });
+  const int count = static_cast<int>(row_sections_.size());
+  const auto find = [&](int index, int worker) {
+    find_section_planes(row_sections_[static_cast<std::size_t>(index)], utime_us, view,
+                        section_scratch_[static_cast<std::size_t>(worker)]);
+  };
+  parallel.run(count, std::ref(find));
+  agree_on_floor();
+  const auto make = [&](int index, int worker) {
+    const int section = row_sections_[static_cast<std::size_t>(index)];
+    SectionResult& result = results_[static_cast<std::size_t>(section)];
+    make_surfels(cloud_, section, result.planes, label_, view, robot_,
+                 cell_scratch_[static_cast<std::size_t>(worker)].sums, result.surfels);
+  };
+  parallel.run(count, std::ref(make));
 }
 
 void FloorPerception::find_section_planes(int section, std::int64_t utime_us, const SensorView& view,
@@ -104,62 +132,66 @@ void FloorPerception::find_section_planes(int section, std::int64_t utime_us, co
   Random seed(static_cast<std::uint64_t>(settings_.planes.seed) ^
               (static_cast<std::uint64_t>(section) << 48) ^ static_cast<std::uint64_t>(utime_us));
   const auto s = static_cast<std::size_t>(section);
-  results_[s].planes =
-      plane_finder_.find(cloud_, section, view, memory_[s].floor_normal, seed.next(), label_, scratch);
+  plane_finder_.find(cloud_, section, view, memory_[s].floor_normal, seed.next(), label_, scratch,
+                     results_[s].planes);
 }
 
 /// The floors of the row's sections agree with each other and with those of the nearer rows.
-void FloorPerception::agree_on_floor(std::span<const int> sections) {
+void FloorPerception::agree_on_floor() {
+  std::sort(row_sections_.begin(), row_sections_.end());
   const auto floor_of = [&](int section) -> SectionPlane* {
     auto& planes = results_[static_cast<std::size_t>(section)].planes;
     return !planes.empty() && planes.front().dominant ? &planes.front() : nullptr;
   };
-  for (const int section : sections)
+  for (const int section : row_sections_)
     if (const SectionPlane* floor = floor_of(section)) floor_agreement_.add(floor->fit);
-  for (const int section : sections)
+  for (const int section : row_sections_)
     if (SectionPlane* floor = floor_of(section))
       floor->plane = floor_agreement_.settle(floor->fit, floor->plane);
 }
 
-void FloorPerception::collect_surfels(const SensorView& view, FloorEvidence& evidence) {
-  for (int section = 0; section < grid_.count(); ++section) {
-    SectionResult& result = results_[static_cast<std::size_t>(section)];
-    result.first_surfel = static_cast<std::int16_t>(evidence.surfels.size());
-    const auto surfels = make_surfels(cloud_, section, result.planes, label_, view, robot_);
-    evidence.surfels.insert(evidence.surfels.end(), surfels.begin(), surfels.end());
+void FloorPerception::collect_surfels() {
+  evidence_.surfels.clear();
+  for (SectionResult& result : results_) {
+    result.first_surfel = static_cast<std::int16_t>(evidence_.surfels.size());
+    evidence_.surfels.insert(evidence_.surfels.end(), result.surfels.begin(), result.surfels.end());
   }
 }
 
-void FloorPerception::collect_cells(const DepthFrame& frame, const SensorView& view, Parallel& parallel,
-                                    FloorEvidence& evidence) {
-  const CellWindow window(evidence.lattice, settings_.roi, view.T_world_body);
+void FloorPerception::collect_cells(const SensorView& view, Parallel& parallel) {
+  const CellWindow window(evidence_.lattice, settings_.roi, view.T_world_body);
   cell_sorter_.sort(cloud_, label_, results_, view, window, parallel, cell_points_);
-  tracer_.trace(frame, view, results_, window, sight_lines_);
-
-  std::vector<std::int32_t> seen;
-  for (std::int32_t number = 0; number < window.count(); ++number)
-    if (!cell_points_.of(number).empty() || sight_lines_.passed(number) || sight_lines_.no_return(number))
-      seen.push_back(number);
-  evidence.cells.resize(seen.size());
+  tracer_.trace(measurer_, view, results_, window, parallel, sight_lines_);
+  find_seen_cells(window);
+  evidence_.cells.assign(seen_cells_.size(), {});
   const auto significance = static_cast<float>(settings_.cells.significance_sigmas);
-  const int count = static_cast<int>(seen.size());
-  parallel.run((count + kCellsPerPiece - 1) / kCellsPerPiece, [&](int piece, int worker) {
+  const int count = static_cast<int>(seen_cells_.size());
+  const auto summarize = [&](int piece, int worker) {
     for (int i = piece * kCellsPerPiece; i < std::min(count, (piece + 1) * kCellsPerPiece); ++i) {
-      const std::int32_t number = seen[static_cast<std::size_t>(i)];
+      const std::int32_t number = seen_cells_[static_cast<std::size_t>(i)];
       const auto points = cell_points_.of(number);
-      CellEvidence& cell = evidence.cells[static_cast<std::size_t>(i)];
+      CellEvidence& cell = evidence_.cells[static_cast<std::size_t>(i)];
       cell.cell = window.cell(number);
       if (sight_lines_.passed(number))
         cell.ray_z_m = sight_lines_.lowest_z_m[static_cast<std::size_t>(number)];
       cell.no_return = points.empty() && sight_lines_.no_return(number);
       if (!points.empty())
-        summarize_cell(points, evidence.surfels.size(), significance,
+        summarize_cell(points, evidence_.surfels.size(), significance,
                        cell_scratch_[static_cast<std::size_t>(worker)], cell);
     }
-  });
+  };
+  parallel.run((count + kCellsPerPiece - 1) / kCellsPerPiece, std::ref(summarize));
 }
 
-void FloorPerception::remember(const SensorView& view, FloorEvidence& evidence) {
+void FloorPerception::find_seen_cells(const CellWindow& window) {
+  seen_cells_.clear();
+  for (std::int32_t number = 0; number < window.count(); ++number)
+    if (!cell_points_.of(number).empty() || sight_lines_.passed(number) || sight_lines_.no_return(number))
+      seen_cells_.push_back(number);
+}
+
+void FloorPerception::remember(const SensorView& view) {
+  evidence_.sections.clear();
   const double min_upright = std::cos(settings_.planes.max_floor_tilt_deg * std::numbers::pi / 180.0);
   for (int section = 0; section < grid_.count(); ++section) {
     const SectionResult& result = results_[static_cast<std::size_t>(section)];
@@ -171,9 +203,9 @@ void FloorPerception::remember(const SensorView& view, FloorEvidence& evidence) 
           view.T_world_sensor.linear() * result.planes.front().plane.normal().cast<double>();
       if (normal.z() >= min_upright) memory.floor_normal = normal.normalized();
     }
-    evidence.sections.push_back({static_cast<std::int16_t>(section / grid_.y_res()),
-                                 static_cast<std::int16_t>(section % grid_.y_res()), result.done, memory.age,
-                                 cloud_.section_size(section)});
+    evidence_.sections.push_back({static_cast<std::int16_t>(section / grid_.y_res()),
+                                  static_cast<std::int16_t>(section % grid_.y_res()), result.done, memory.age,
+                                  cloud_.section_size(section)});
   }
 }
 

@@ -41,7 +41,8 @@ class FloorPerception {
   FloorPerception(const PerceptionSettings& settings, const RobotSettings& robot);
 
   /// `T_world_body` is the body's pose in the local world frame at the frame's time.
-  FloorEvidence process(
+  /// The result lasts until the next call. After a few frames of a kind nothing is allocated any more.
+  const FloorEvidence& process(
       const DepthFrame& frame, const Pose& T_world_body, Parallel& parallel, const Admission& admit,
       const StageEnd& end_stage = [](PerceptionStage) {});
 
@@ -51,19 +52,22 @@ class FloorPerception {
     std::int16_t age = 0;                                     ///< frames since it was last done
   };
 
-  std::vector<int> admit_row(int row, const Admission& admit);
-  void remove_section_outliers(int section, const Pinhole& camera, Parallel& parallel, PixelCounts& counts);
+  void begin(const DepthFrame& frame, const SensorView& view, Parallel& parallel);
+  void admit_row(int row, const Admission& admit);
+  void remove_section_outliers(int section, const Pinhole& camera, Parallel& parallel);
   void find_section_planes(int section, std::int64_t utime_us, const SensorView& view,
                            SectionScratch& scratch);
-  void agree_on_floor(std::span<const int> sections);
-  void collect_surfels(const SensorView& view, FloorEvidence& evidence);
-  void collect_cells(const DepthFrame& frame, const SensorView& view, Parallel& parallel,
-                     FloorEvidence& evidence);
-  void remember(const SensorView& view, FloorEvidence& evidence);
+  void find_row_planes(std::int64_t utime_us, const SensorView& view, Parallel& parallel);
+  void agree_on_floor();
+  void collect_surfels();
+  void collect_cells(const SensorView& view, Parallel& parallel);
+  void find_seen_cells(const CellWindow& window);
+  void remember(const SensorView& view);
 
   PerceptionSettings settings_;
   RobotSettings robot_;
   SectionGrid grid_;
+  Measurer measurer_;
   RoiClipper clipper_;
   OutlierRemover outlier_remover_;
   SectionPlaneFinder plane_finder_;
@@ -71,7 +75,9 @@ class FloorPerception {
   SightLineTracer tracer_;
   std::vector<SectionMemory> memory_;
 
-  // Of the frame in hand; kept so that a frame allocates little.
+  // Of the frame in hand; kept so that a frame allocates nothing.
+  FloorEvidence evidence_;
+  std::vector<int> row_sections_;  ///< admitted ones of the row in hand
   RoiCloud cloud_;
   std::vector<std::uint8_t> keep_;
   std::vector<std::int16_t> label_;
@@ -80,6 +86,7 @@ class FloorPerception {
   std::vector<SectionScratch> section_scratch_;
   CellPoints cell_points_;
   SightLines sight_lines_;
+  std::vector<std::int32_t> seen_cells_;
   std::vector<CellScratch> cell_scratch_;
 };
 

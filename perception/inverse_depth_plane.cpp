@@ -36,6 +36,24 @@ std::optional<InverseDepthPlane> plane_through(const Eigen::Vector3f& p, const E
   return InverseDepthPlane{coefficients.x(), coefficients.y(), coefficients.z()};
 }
 
+PlaneFit::PlaneFit(const ResidualSums& s, const InverseDepthPlane& plane) {
+  const double a = static_cast<double>(plane.a), b = static_cast<double>(plane.b);
+  const double x0 = static_cast<double>(s.ray_x), y0 = static_cast<double>(s.ray_y);
+  const double c = a * x0 + b * y0 + static_cast<double>(plane.c);
+  // Inverse depth is residual + a x + b y + c; x and y still count from the ray.
+  const double q = s.r + a * s.x + b * s.y + c * s.w;
+  const double xq = s.xr + a * s.xx + b * s.xy + c * s.x;
+  const double yq = s.yr + a * s.xy + b * s.yy + c * s.y;
+  qq_ = s.rr + 2.0 * (a * s.xr + b * s.yr + c * s.r) + a * a * s.xx + 2.0 * a * b * s.xy + b * b * s.yy +
+        2.0 * c * (a * s.x + b * s.y) + c * c * s.w;
+  w_ = s.w, q_ = q;
+  x_ = s.x + x0 * s.w, y_ = s.y + y0 * s.w;
+  xx_ = s.xx + 2.0 * x0 * s.x + x0 * x0 * s.w;
+  yy_ = s.yy + 2.0 * y0 * s.y + y0 * y0 * s.w;
+  xy_ = s.xy + x0 * s.y + y0 * s.x + x0 * y0 * s.w;
+  xq_ = xq + x0 * q, yq_ = yq + y0 * q;
+}
+
 PlaneFit& PlaneFit::operator+=(const PlaneFit& more) {
   w_ += more.w_, x_ += more.x_, y_ += more.y_, q_ += more.q_, qq_ += more.qq_;
   xx_ += more.xx_, xy_ += more.xy_, yy_ += more.yy_, xq_ += more.xq_, yq_ += more.yq_;

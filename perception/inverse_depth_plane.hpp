@@ -31,9 +31,20 @@ std::optional<InverseDepthPlane> plane_through(
 /// nothing where it runs along the ray.
 std::optional<InverseDepthPlane> plane_through(const Eigen::Vector3f& p, const Eigen::Vector3f& normal);
 
+/// Weighted sums over points around a ray: x and y are counted from it, r is what the inverse depth is more
+/// than some plane's. All are small numbers, so that a sum of floats is exact enough.
+struct ResidualSums {
+  float ray_x = 0, ray_y = 0;
+  double w = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, r = 0, xr = 0, yr = 0, rr = 0;
+};
+
 /// Weighted least squares of inverse depth over the ray.
 class PlaneFit {
  public:
+  PlaneFit() = default;
+  /// `plane`: the one from which the residuals are.
+  PlaneFit(const ResidualSums& sums, const InverseDepthPlane& plane);
+
   void add(float ray_x, float ray_y, float inverse_depth, float weight) {
     const double w = static_cast<double>(weight);
     const double x = static_cast<double>(ray_x), y = static_cast<double>(ray_y),

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "perception/depth_frame.hpp"
 
@@ -14,25 +15,41 @@ struct Measurement {
   explicit operator bool() const { return inverse_depth > 0.0F; }
 };
 
-/// Inverse depth and its certainty by eq. (3) / (4); for depth pixels the rounding to whole counts adds its
-/// share. False where nothing came back or the value is absurd.
-inline Measurement measure(const DepthFrame& frame, std::size_t pixel, float roughness_m) {
-  constexpr float kMaxDepth_m = 100.0F;
-  constexpr float kRounding = 0.288675F;  // deviation of a uniform distribution of width 1
-  const float value = static_cast<float>(frame.pixels[pixel]) * frame.scale;
-  if (!(value > 0.0F)) return {};
-  const float per_disparity = 1.0F / (frame.camera.fx * frame.baseline_m);
-  float sigma_px = frame.disparity_sigma_px;
-  if (!frame.uncertainty.empty() && frame.uncertainty[pixel] != 0)
-    sigma_px = static_cast<float>(frame.uncertainty[pixel]) * frame.uncertainty_scale;
-  const float sigma = sigma_px * per_disparity;
-  const bool is_depth = frame.meaning == PixelMeaning::kDepth;
-  const float inverse_depth = is_depth ? 1.0F / value : value * per_disparity;
-  if (!(inverse_depth * kMaxDepth_m > 1.0F)) return {};
-  const float rounding_m = is_depth ? frame.scale * kRounding : 0.0F;
-  const float added = (roughness_m * roughness_m + rounding_m * rounding_m) * inverse_depth * inverse_depth *
-                      inverse_depth * inverse_depth;
-  return {inverse_depth, 1.0F / std::sqrt(sigma * sigma + added)};
-}
+/// Inverse depth of a frame's pixels and its certainty by eq. (3) / (4); for depth pixels the rounding to
+/// whole counts adds its share. False where nothing came back or the value is absurd.
+class Measurer {
+ public:
+  /// `roughness_m`: 1 sigma that surfaces and calibration add to the depth.
+  explicit Measurer(double roughness_m) : roughness_m_(static_cast<float>(roughness_m)) {}
+
+  /// Takes a frame whose pixels, and uncertainties, outlive the questions.
+  void begin(const DepthFrame& frame);
+
+  [[nodiscard]] Measurement operator()(std::size_t pixel) const {
+    if (!uncertainty_.empty() && uncertainty_[pixel] != 0)
+      return measure(pixels_[pixel], static_cast<float>(uncertainty_[pixel]) * uncertainty_scale_);
+    return table_[pixels_[pixel]];
+  }
+  /// Certainty set aside.
+  [[nodiscard]] float inverse_depth(std::size_t pixel) const { return table_[pixels_[pixel]].inverse_depth; }
+
+ private:
+  /// What a measurement depends on besides the pixel.
+  struct Model {
+    PixelMeaning meaning = PixelMeaning::kDepth;
+    float scale = 0.0F;
+    float per_disparity = 0.0F;  ///< 1/m of inverse depth a px of disparity
+    float sigma_px = 0.0F;
+    friend bool operator==(const Model&, const Model&) = default;
+  };
+  [[nodiscard]] Measurement measure(std::uint16_t count, float sigma_px) const;
+
+  float roughness_m_;
+  Model model_;
+  std::span<const std::uint16_t> pixels_;
+  std::span<const std::uint8_t> uncertainty_;
+  float uncertainty_scale_ = 0.0F;
+  std::vector<Measurement> table_;  ///< of each count, for the frame's own uncertainty
+};
 
 }  // namespace floornav

@@ -5,26 +5,30 @@
 
 namespace floornav {
 
-void PixelBlocks::reset(const Pinhole& camera) {
-  width_ = camera.width;
-  per_row_ = (camera.width + kSide_px - 1) / kSide_px;
-  const std::int32_t rows = (camera.height + kSide_px - 1) / kSide_px;
-  points_.assign(static_cast<std::size_t>(per_row_) * static_cast<std::size_t>(rows), 0);
-  inliers_.assign(points_.size(), 0);
+void PixelBlocks::begin(const Pinhole& camera, const PlanePool& pool) {
+  columns_ = static_cast<std::size_t>(per_row(camera));
+  const auto rows = static_cast<std::size_t>((camera.height + kSide_px - 1) / kSide_px);
+  for (auto* counts : {&points_, &inliers_, &patch_}) counts->resize(columns_ * rows);
+  begin_ = pool.size() == 0 ? 0 : static_cast<std::size_t>(pool.block.front()) / columns_ * columns_;
+  end_ = pool.size() == 0 ? 0 : (static_cast<std::size_t>(pool.block.back()) / columns_ + 1) * columns_;
+  std::fill(points_.begin() + static_cast<std::ptrdiff_t>(begin_),
+            points_.begin() + static_cast<std::ptrdiff_t>(end_), 0);
+  for (const std::int32_t block : pool.block) ++points_[static_cast<std::size_t>(block)];
 }
 
-void PixelBlocks::count(const PlanePool& pool, const std::vector<std::int32_t>& pixel,
-                        const InverseDepthPlane& plane, float threshold_sigmas) {
-  std::fill(inliers_.begin(), inliers_.end(), 0);
+void PixelBlocks::count(const PlanePool& pool, const InverseDepthPlane& plane, float threshold_sigmas) {
+  std::fill(inliers_.begin() + static_cast<std::ptrdiff_t>(begin_),
+            inliers_.begin() + static_cast<std::ptrdiff_t>(end_), 0);
   for (std::size_t i = 0; i < pool.size(); ++i)
-    if (std::abs(pool.residual(i, plane)) <= threshold_sigmas)
-      ++inliers_[block_of(pixel[static_cast<std::size_t>(pool.point[i])])];
+    inliers_[static_cast<std::size_t>(pool.block[i])] +=
+        std::abs(pool.residual(i, plane)) <= threshold_sigmas ? 1 : 0;
 }
 
 void PixelBlocks::keep_largest_patch() {
-  patch_.assign(inliers_.size(), 0);
+  std::fill(patch_.begin() + static_cast<std::ptrdiff_t>(begin_),
+            patch_.begin() + static_cast<std::ptrdiff_t>(end_), 0);
   std::int32_t patches = 0, best = 0, best_inliers = 0;
-  for (std::size_t block = 0; block < inliers_.size(); ++block) {
+  for (std::size_t block = begin_; block < end_; ++block) {
     if (!owns(block) || patch_[block] != 0) continue;
     const std::int32_t inliers = flood(block, ++patches);
     if (inliers > best_inliers) {
@@ -32,25 +36,24 @@ void PixelBlocks::keep_largest_patch() {
       best_inliers = inliers;
     }
   }
-  for (std::size_t block = 0; block < inliers_.size(); ++block)
+  for (std::size_t block = begin_; block < end_; ++block)
     if (patch_[block] != best) inliers_[block] = 0;
 }
 
 /// Numbers the owned blocks that hang together with `first`; returns their inliers.
 std::int32_t PixelBlocks::flood(std::size_t first, std::int32_t patch) {
   std::int32_t inliers = 0;
-  const auto columns = static_cast<std::size_t>(per_row_);
-  const std::size_t rows = inliers_.size() / columns;
+  const std::size_t first_row = begin_ / columns_, end_row = end_ / columns_;
   open_.assign(1, first);
   patch_[first] = patch;
   while (!open_.empty()) {
     const std::size_t block = open_.back();
     open_.pop_back();
     inliers += inliers_[block];
-    const std::size_t row = block / columns, column = block % columns;
-    for (std::size_t r = row == 0 ? 0 : row - 1; r <= std::min(row + 1, rows - 1); ++r)
-      for (std::size_t c = column == 0 ? 0 : column - 1; c <= std::min(column + 1, columns - 1); ++c) {
-        const std::size_t next = r * columns + c;
+    const std::size_t row = block / columns_, column = block % columns_;
+    for (std::size_t r = row == first_row ? row : row - 1; r < std::min(row + 2, end_row); ++r)
+      for (std::size_t c = column == 0 ? 0 : column - 1; c < std::min(column + 2, columns_); ++c) {
+        const std::size_t next = r * columns_ + c;
         if (!owns(next) || patch_[next] != 0) continue;
         patch_[next] = patch;
         open_.push_back(next);

@@ -14,37 +14,34 @@ namespace floornav {
 /// another plane, or the far tail of the noise around one.
 class PixelBlocks {
  public:
-  /// Begins a section without points.
-  void reset(const Pinhole& camera);
-  void add_point(std::int32_t pixel) { ++points_[block_of(pixel)]; }
+  static constexpr std::int32_t kSide_px = 8;
+  [[nodiscard]] static std::int32_t per_row(const Pinhole& camera) {
+    return (camera.width + kSide_px - 1) / kSide_px;
+  }
 
-  /// Counts the plane's inliers among the pool's points; `pixel` is of the cloud that the pool's points
-  /// index.
-  void count(const PlanePool& pool, const std::vector<std::int32_t>& pixel, const InverseDepthPlane& plane,
-             float threshold_sigmas);
+  /// Begins a section with the pool's points.
+  void begin(const Pinhole& camera, const PlanePool& pool);
+  /// Counts the plane's inliers among the pool's points.
+  void count(const PlanePool& pool, const InverseDepthPlane& plane, float threshold_sigmas);
   /// Gives up all owned blocks but the connected patch with most inliers.
   void keep_largest_patch();
 
-  /// Share of the inliers among the points of the pixel's block is enough to own it.
-  [[nodiscard]] bool owned(std::int32_t pixel) const { return owns(block_of(pixel)); }
+  /// Share of the inliers among the block's points is enough to own it.
+  [[nodiscard]] bool owned(std::int32_t block) const { return owns(static_cast<std::size_t>(block)); }
   /// The plane holds most of the block's points.
-  [[nodiscard]] bool mostly_owned(std::int32_t pixel) const {
-    const std::size_t block = block_of(pixel);
-    return 2 * inliers_[block] >= points_[block];
+  [[nodiscard]] bool mostly_owned(std::int32_t block) const {
+    const auto b = static_cast<std::size_t>(block);
+    return 2 * inliers_[b] >= points_[b];
   }
 
  private:
-  [[nodiscard]] std::size_t block_of(std::int32_t pixel) const {
-    return static_cast<std::size_t>(pixel / width_ / kSide_px * per_row_ + pixel % width_ / kSide_px);
-  }
   [[nodiscard]] bool owns(std::size_t block) const {
     return inliers_[block] > 0 && 10 * inliers_[block] >= 3 * points_[block];
   }
   std::int32_t flood(std::size_t first, std::int32_t patch);
 
-  static constexpr std::int32_t kSide_px = 8;
-  std::int32_t width_ = 1;                              ///< px, of the image
-  std::int32_t per_row_ = 1;                            ///< blocks
+  std::size_t columns_ = 1;
+  std::size_t begin_ = 0, end_ = 0;                     ///< rows of blocks that hold the section's points
   std::vector<std::int32_t> points_, inliers_, patch_;  ///< a block
   std::vector<std::size_t> open_;  ///< blocks of the patch in hand, neighbours not yet seen
 };

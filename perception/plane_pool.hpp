@@ -13,17 +13,23 @@ struct PlanePool {
   std::vector<float> inverse_depth;  ///< 1/m
   std::vector<float> certainty;      ///< m: 1 / (1 sigma of inverse_depth)
   std::vector<std::int32_t> point;   ///< index in the RoiCloud
+  std::vector<std::int32_t> block;   ///< RoiCloud::block of the point
 
   [[nodiscard]] std::size_t size() const { return point.size(); }
 
-  void clear() { resize(0); }
-
-  void add(float x, float y, float inverse, float sure, std::int32_t index) {
-    ray_x.push_back(x);
-    ray_y.push_back(y);
-    inverse_depth.push_back(inverse);
-    certainty.push_back(sure);
-    point.push_back(index);
+  void resize(std::size_t n) {
+    for (auto* values : {&ray_x, &ray_y, &inverse_depth, &certainty}) values->resize(n);
+    point.resize(n);
+    block.resize(n);
+  }
+  /// Takes place `to` from place `from` of a pool.
+  void set(std::size_t to, const PlanePool& other, std::size_t from) {
+    ray_x[to] = other.ray_x[from];
+    ray_y[to] = other.ray_y[from];
+    inverse_depth[to] = other.inverse_depth[from];
+    certainty[to] = other.certainty[from];
+    point[to] = other.point[from];
+    block[to] = other.block[from];
   }
 
   /// Distance from the plane along the ray, in standard deviations of the point's disparity; positive: nearer
@@ -38,20 +44,10 @@ struct PlanePool {
     std::size_t end = 0;
     for (std::size_t i = 0; i < size(); ++i) {
       if (!stays(i)) continue;
-      ray_x[end] = ray_x[i];
-      ray_y[end] = ray_y[i];
-      inverse_depth[end] = inverse_depth[i];
-      certainty[end] = certainty[i];
-      point[end] = point[i];
+      if (end != i) set(end, *this, i);
       ++end;
     }
     resize(end);
-  }
-
- private:
-  void resize(std::size_t n) {
-    for (auto* values : {&ray_x, &ray_y, &inverse_depth, &certainty}) values->resize(n);
-    point.resize(n);
   }
 };
 

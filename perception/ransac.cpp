@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "perception/plane_kernel.hpp"
+
 namespace floornav {
 
 namespace {
@@ -15,29 +17,11 @@ constexpr float kMinHypotheses =
     50.0F;  ///< the best of several planes that compete is found by comparing enough
 constexpr float kWorthRefining = 0.8F;  ///< of the best gain so far
 constexpr int kLocalRefinements = 2;
-constexpr int kFinalRefinements = 4;
-
-struct Score {
-  float gain = 0.0F;     ///< what the robust cost of the sample falls by
-  float inliers = 0.0F;  ///< share of the sample
-};
-
-Score score_of(const PlanePool& sample, const InverseDepthPlane& plane, float threshold) {
-  const float limit = threshold * threshold;
-  float gain = 0.0F;
-  int inliers = 0;
-  for (std::size_t i = 0; i < sample.size(); ++i) {
-    const float r = sample.residual(i, plane);
-    const float left = limit - r * r;
-    gain += std::max(left, 0.0F);
-    inliers += left > 0.0F ? 1 : 0;
-  }
-  return {gain, static_cast<float>(inliers) / static_cast<float>(sample.size())};
-}
+constexpr int kFinalRefinements = 2;
 
 /// Mean of a few points that follow each other: if they are on a plane so is their mean, with less noise. So
 /// planes a little apart compete more clearly.
-void add_mean(const PlanePool& pool, std::size_t first, PlanePool& sample) {
+void set_mean(const PlanePool& pool, std::size_t first, std::size_t place, PlanePool& sample) {
   const std::size_t count = std::min(kPointsPerMean, pool.size() - first);
   float ray_x = 0.0F, ray_y = 0.0F, inverse_depth = 0.0F, certainty = 0.0F;
   for (std::size_t i = first; i < first + count; ++i) {
@@ -47,18 +31,20 @@ void add_mean(const PlanePool& pool, std::size_t first, PlanePool& sample) {
     certainty += pool.certainty[i];
   }
   const float share = 1.0F / static_cast<float>(count);
-  sample.add(ray_x * share, ray_y * share, inverse_depth * share, certainty * std::sqrt(share),
-             pool.point[first]);
+  sample.ray_x[place] = ray_x * share;
+  sample.ray_y[place] = ray_y * share;
+  sample.inverse_depth[place] = inverse_depth * share;
+  sample.certainty[place] = certainty * std::sqrt(share);
 }
 
 /// One mean of each of equal pieces of the pool, so that the sample covers the section evenly.
 void draw_sample(const PlanePool& pool, Random& random, PlanePool& sample) {
-  sample.clear();
   const std::size_t count = std::min(kSampleSize, pool.size());
+  sample.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t begin = i * pool.size() / count;
     const std::size_t end = (i + 1) * pool.size() / count;
-    add_mean(pool, begin + random.below(end - begin), sample);
+    set_mean(pool, begin + random.below(end - begin), i, sample);
   }
 }
 
@@ -85,14 +71,14 @@ float hypotheses_needed(float inlier_share) {
 
 struct Candidate {
   InverseDepthPlane plane;
-  Score score;
+  PlaneScore score;
 };
 
 Candidate refined_on_sample(const PlanePool& sample, const PlaneQuery& query, Candidate best) {
   for (int i = 0; i < kLocalRefinements; ++i) {
     const auto plane = refine(sample, best.plane, query.threshold_sigmas);
     if (!plane || !query.admits(*plane)) break;
-    const Score score = score_of(sample, *plane, query.threshold_sigmas);
+    const PlaneScore score = score_of(sample, *plane, query.threshold_sigmas);
     if (score.gain <= best.score.gain) break;
     best = {*plane, score};
   }
@@ -103,12 +89,7 @@ Candidate refined_on_sample(const PlanePool& sample, const PlaneQuery& query, Ca
 
 std::optional<InverseDepthPlane> refine(const PlanePool& pool, const InverseDepthPlane& plane,
                                         float threshold_sigmas) {
-  PlaneFit fit;
-  for (std::size_t i = 0; i < pool.size(); ++i) {
-    if (std::abs(pool.residual(i, plane)) > threshold_sigmas) continue;
-    fit.add(pool.ray_x[i], pool.ray_y[i], pool.inverse_depth[i], pool.certainty[i] * pool.certainty[i]);
-  }
-  return fit.solve();
+  return fit_inliers(pool, plane, threshold_sigmas, {}).solve();
 }
 
 std::optional<InverseDepthPlane> find_plane(const PlanePool& pool, const PlaneQuery& query, Random& random,
@@ -122,7 +103,7 @@ std::optional<InverseDepthPlane> find_plane(const PlanePool& pool, const PlaneQu
     if (static_cast<float>(scored) >= needed) break;
     const auto plane = hypothesis(scratch.sample, query, attempt, random);
     if (!plane || !query.admits(*plane)) continue;
-    const Score score = score_of(scratch.sample, *plane, query.threshold_sigmas);
+    const PlaneScore score = score_of(scratch.sample, *plane, query.threshold_sigmas);
     ++scored;
     if (best && score.gain < kWorthRefining * best->score.gain) continue;
     const Candidate refined = refined_on_sample(scratch.sample, query, {*plane, score});

@@ -5,6 +5,7 @@
 
 #include "perception/depth_frame.hpp"
 #include "perception/evidence.hpp"
+#include "perception/measurement.hpp"
 #include "perception/sections.hpp"
 #include "perception/sensor_view.hpp"
 #include "perception/settings.hpp"
@@ -20,6 +21,7 @@ struct RoiCloud {
   std::vector<float> inverse_depth;       ///< 1/m
   std::vector<float> certainty;           ///< m: 1 / (1 sigma of inverse_depth)
   std::vector<std::int32_t> pixel;        ///< row * width + column
+  std::vector<std::int32_t> block;        ///< of PixelBlocks
   std::vector<std::int32_t> section_end;  ///< section s holds the points [section_begin(s), section_end[s])
 
   [[nodiscard]] std::int32_t section_begin(int section) const {
@@ -38,20 +40,23 @@ class RoiClipper {
   RoiClipper(const RoiSettings& settings, const SectionGrid& grid) : settings_(settings), grid_(grid) {}
 
   /// Fills `cloud`; tells what became of the pixels. Bands of rows are independent work.
-  PixelCounts clip(const DepthFrame& frame, const SensorView& view, Parallel& parallel, RoiCloud& cloud);
+  PixelCounts clip(const DepthFrame& frame, const Measurer& measure, const SensorView& view,
+                   Parallel& parallel, RoiCloud& cloud);
 
  private:
   struct Band {
     PixelCounts counts;
     std::vector<std::int32_t> next;  ///< a section: number of points, then the place of the next one
   };
-  void sort_band(const DepthFrame& frame, const SensorView& view, int first_row, int end_row, Band& band);
+  void find_rays(const Pinhole& camera);
+  void sort_band(const Measurer& measure, const SensorView& view, int first_row, int end_row, Band& band);
   void lay_out(RoiCloud& cloud);
-  void fill_band(const DepthFrame& frame, int first_row, int end_row, Band& band, RoiCloud& cloud) const;
+  void fill_band(const Measurer& measure, int first_row, int end_row, Band& band, RoiCloud& cloud) const;
 
   RoiSettings settings_;
   SectionGrid grid_;
   std::vector<Band> bands_;
+  std::vector<float> ray_x_, ray_y_;  ///< of a column, of a row
   std::vector<std::int16_t> section_of_pixel_;
 };
 

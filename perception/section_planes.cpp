@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "perception/plane_kernel.hpp"
+
 namespace floornav {
 
 namespace {
@@ -19,10 +21,6 @@ float radians(double degrees) {
   return static_cast<float>(degrees * std::numbers::pi / 180.0);
 }
 
-void add_point(const PlanePool& from, std::size_t i, PlanePool& to) {
-  to.add(from.ray_x[i], from.ray_y[i], from.inverse_depth[i], from.certainty[i], from.point[i]);
-}
-
 }  // namespace
 
 /// One section's recursion.
@@ -33,65 +31,73 @@ struct SectionPlaneFinder::Search {
   std::span<std::int16_t> label;
   SectionScratch& scratch;
   Random random;
-  std::vector<SectionPlane> planes;
+  std::vector<SectionPlane>& planes;
 
   [[nodiscard]] float threshold() const { return static_cast<float>(finder.settings_.threshold_sigmas); }
-  [[nodiscard]] std::int32_t pixel(const PlanePool& pool, std::size_t i) const {
-    return cloud.pixel[static_cast<std::size_t>(pool.point[i])];
-  }
 
   void fill_pool(int section) {
-    scratch.blocks.reset(view.camera);
-    scratch.pool.clear();
+    PlanePool& pool = scratch.pool;
+    pool.resize(static_cast<std::size_t>(cloud.section_size(section)));
+    std::size_t end = 0;
     for (std::int32_t p = cloud.section_begin(section);
          p < cloud.section_end[static_cast<std::size_t>(section)]; ++p) {
       const auto i = static_cast<std::size_t>(p);
       if (label[i] == kOutlier) continue;
       label[i] = kNoPlane;
-      scratch.pool.add(cloud.ray_x[i], cloud.ray_y[i], cloud.inverse_depth[i], cloud.certainty[i], p);
-      scratch.blocks.add_point(cloud.pixel[i]);
+      pool.ray_x[end] = cloud.ray_x[i];
+      pool.ray_y[end] = cloud.ray_y[i];
+      pool.inverse_depth[end] = cloud.inverse_depth[i];
+      pool.certainty[end] = cloud.certainty[i];
+      pool.point[end] = p;
+      pool.block[end] = cloud.block[i];
+      ++end;
     }
+    pool.resize(end);
+    scratch.blocks.begin(view.camera, pool);
   }
 
   /// Points where floor can be that the robot can come to: desks and walls do not compete with the floor.
   void fill_floor_pool() {
-    scratch.floor_pool.clear();
     const Eigen::Matrix3f R = view.T_world_sensor.linear().cast<float>();
     const Eigen::Vector3f sensor =
         (view.T_world_sensor.translation() - view.T_world_body.translation()).cast<float>();
     const PlanePool& pool = scratch.pool;
+    scratch.floor_pool.resize(pool.size());
+    std::size_t end = 0;
     for (std::size_t i = 0; i < pool.size(); ++i) {
       const Eigen::Vector3f ray = R * Eigen::Vector3f(pool.ray_x[i], pool.ray_y[i], 1.0F);
       const float depth = 1.0F / pool.inverse_depth[i];
       const Eigen::Vector3f p = sensor + depth * ray;
       const float sigma_height = depth * depth / pool.certainty[i] * std::abs(ray.z());
       if (finder.reach_.holds(p.head<2>().norm(), p.z(), kReachSlack_m + 3.0F * sigma_height))
-        add_point(pool, i, scratch.floor_pool);
+        scratch.floor_pool.set(end++, pool, i);
     }
+    scratch.floor_pool.resize(end);
   }
 
   [[nodiscard]] bool claims(const PlanePool& pool, std::size_t i, const InverseDepthPlane& plane) const {
-    return std::abs(pool.residual(i, plane)) <= threshold() && scratch.blocks.owned(pixel(pool, i));
+    return std::abs(pool.residual(i, plane)) <= threshold() && scratch.blocks.owned(pool.block[i]);
   }
 
   /// Where the plane owns its points. The floor may lie in several patches, with obstacles between them; any
   /// other plane is one patch.
   void count_blocks(const PlanePool& pool, const InverseDepthPlane& plane, bool is_floor) {
-    scratch.blocks.count(pool, cloud.pixel, plane, threshold());
+    scratch.blocks.count(pool, plane, threshold());
     if (!is_floor) scratch.blocks.keep_largest_patch();
   }
 
   /// Refines on the points that the plane owns; nothing where they are too few.
   std::optional<SectionPlane> settle(const PlanePool& pool, const InverseDepthPlane& found, bool is_floor) {
     count_blocks(pool, found, is_floor);
-    PlaneFit fit;
+    scratch.claimed.resize(pool.size());
     int points = 0;
     for (std::size_t i = 0; i < pool.size(); ++i) {
-      if (!claims(pool, i, found)) continue;
-      fit.add(pool.ray_x[i], pool.ray_y[i], pool.inverse_depth[i], pool.certainty[i] * pool.certainty[i]);
-      ++points;
+      const bool claimed = claims(pool, i, found);
+      scratch.claimed[i] = claimed ? 1.0F : 0.0F;
+      points += claimed ? 1 : 0;
     }
     if (points < finder.settings_.min_points) return std::nullopt;
+    const PlaneFit fit = fit_inliers(pool, found, threshold(), scratch.claimed);
     const auto free = fit.solve();
     if (!free) return std::nullopt;
     const SectionPlane settled{*free, fit, is_floor};
@@ -115,7 +121,7 @@ struct SectionPlaneFinder::Search {
       const float distance = std::abs(pool.residual(i, plane));
       const bool claimed = claims(pool, i, plane);
       const bool noise = distance > threshold() && distance <= kNoiseBand * threshold() &&
-                         scratch.blocks.mostly_owned(pixel(pool, i));
+                         scratch.blocks.mostly_owned(pool.block[i]);
       if (claimed || noise) label[static_cast<std::size_t>(pool.point[i])] = claimed ? index : kPlaneNoise;
       return !claimed && !noise;
     });
@@ -161,16 +167,16 @@ struct SectionPlaneFinder::Search {
 SectionPlaneFinder::SectionPlaneFinder(const PlaneSettings& settings, const RobotSettings& robot)
     : settings_(settings), reach_(robot) {}
 
-std::vector<SectionPlane> SectionPlaneFinder::find(const RoiCloud& cloud, int section, const SensorView& view,
-                                                   const Eigen::Vector3d& floor_normal_world,
-                                                   std::uint64_t seed, std::span<std::int16_t> label,
-                                                   SectionScratch& scratch) const {
-  Search search{*this, cloud, view, label, scratch, Random(seed), {}};
+void SectionPlaneFinder::find(const RoiCloud& cloud, int section, const SensorView& view,
+                              const Eigen::Vector3d& floor_normal_world, std::uint64_t seed,
+                              std::span<std::int16_t> label, SectionScratch& scratch,
+                              std::vector<SectionPlane>& planes) const {
+  planes.clear();
+  Search search{*this, cloud, view, label, scratch, Random(seed), planes};
   search.fill_pool(section);
   search.fill_floor_pool();
   if (!search.find_floor(floor_normal_world)) search.find_floor(Eigen::Vector3d::UnitZ());
   search.find_others();
-  return std::move(search.planes);
 }
 
 }  // namespace floornav

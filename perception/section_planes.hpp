@@ -33,6 +33,7 @@ struct SectionScratch {
   PlanePool floor_pool;
   RansacScratch ransac;
   PixelBlocks blocks;
+  std::vector<float> claimed;  ///< a point of the pool: 1 where the plane in hand owns its surroundings
 };
 
 /// Recursive RANSAC of one section (section 4.6.1).
@@ -40,13 +41,13 @@ class SectionPlaneFinder {
  public:
   SectionPlaneFinder(const PlaneSettings& settings, const RobotSettings& robot);
 
-  /// Finds the section's planes: first the floor, near `floor_normal_world` (its last known normal) and where
-  /// the robot can come to; then planes of any inclination among the points left over, until too few are left
-  /// or the recursion's limit. `label` (of the whole cloud; kOutlier where a point is removed already) gets
-  /// each point's index into the result.
-  std::vector<SectionPlane> find(const RoiCloud& cloud, int section, const SensorView& view,
-                                 const Eigen::Vector3d& floor_normal_world, std::uint64_t seed,
-                                 std::span<std::int16_t> label, SectionScratch& scratch) const;
+  /// Fills in the section's planes: first the floor, near `floor_normal_world` (its last known normal) and
+  /// where the robot can come to; then planes of any inclination among the points left over, until too few
+  /// are left or the recursion's limit. `label` (of the whole cloud; kOutlier where a point is removed
+  /// already) gets each point's index into `planes`.
+  void find(const RoiCloud& cloud, int section, const SensorView& view,
+            const Eigen::Vector3d& floor_normal_world, std::uint64_t seed, std::span<std::int16_t> label,
+            SectionScratch& scratch, std::vector<SectionPlane>& planes) const;
 
  private:
   struct Search;

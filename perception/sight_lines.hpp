@@ -12,6 +12,7 @@
 #include "perception/sections.hpp"
 #include "perception/sensor_view.hpp"
 #include "perception/settings.hpp"
+#include "runtime/geometry/parallel.hpp"
 
 namespace floornav {
 
@@ -31,6 +32,12 @@ struct SightLines {
     const auto c = static_cast<std::size_t>(cell);
     return unreturned[c] >= kMinRays && unreturned[c] >= 4 * returned[c];
   }
+  void clear(std::size_t cells) {
+    lowest_z_m.assign(cells, std::numeric_limits<float>::infinity());
+    returned.assign(cells, 0);
+    unreturned.assign(cells, 0);
+  }
+  void add(const SightLines& more);
 };
 
 /// Follows rays over the cells of done sections. A sample of those that returned clears what lies before
@@ -42,18 +49,13 @@ class SightLineTracer {
   SightLineTracer(const RoiSettings& roi, const CellSettings& cells, const SectionGrid& grid)
       : roi_(roi), cells_(cells), grid_(grid) {}
 
-  void trace(const DepthFrame& frame, const SensorView& view, std::span<const SectionResult> sections,
-             const CellWindow& window, SightLines& out);
+  void trace(const Measurer& measure, const SensorView& view, std::span<const SectionResult> sections,
+             const CellWindow& window, Parallel& parallel, SightLines& out);
 
  private:
   void find_expected_floors(const SensorView& view, std::span<const SectionResult> sections);
   void find_done_cells(const SensorView& view, std::span<const SectionResult> sections,
                        const CellWindow& window);
-  void measure_row(const DepthFrame& frame, int row);
-  void pass_row(const SensorView& view, int row, const CellWindow& window, SightLines& out) const;
-  void expect_row(const SensorView& view, int row, const CellWindow& window, SightLines& out) const;
-  [[nodiscard]] float expected_inverse_depth(const Eigen::Vector3f& ray, const SensorView& view) const;
-  [[nodiscard]] bool is_explained(int column, float expected_inverse_depth, const SensorView& view) const;
 
   /// Neighbouring pixels of a row without return.
   struct Gap {
@@ -62,6 +64,20 @@ class SightLineTracer {
     float farthest_inverse_depth = 0.0F;  ///< of the other one; 0 at the image's border
     bool at_border = false;               ///< of the image
   };
+  /// What one worker holds.
+  struct Worker {
+    std::vector<float> inverse_depth;  ///< of the row in hand, a column; 0: no return
+    std::vector<Gap> gap;              ///< of the row in hand, a column
+    SightLines lines;
+  };
+  void measure_row(const Measurer& measure, int width, int row, Worker& worker) const;
+  void pass_row(const Measurer& measure, const SensorView& view, int row, const CellWindow& window,
+                Worker& worker) const;
+  void expect_row(const SensorView& view, int row, const CellWindow& window, Worker& worker) const;
+  [[nodiscard]] float expected_inverse_depth(const Eigen::Vector3f& ray, const Eigen::Matrix3f& R_body_sensor,
+                                             const Eigen::Vector3f& origin) const;
+  [[nodiscard]] static bool is_explained(const Gap& gap, float expected_inverse_depth,
+                                         const SensorView& view);
 
   RoiSettings roi_;
   CellSettings cells_;
@@ -69,8 +85,7 @@ class SightLineTracer {
   InverseDepthPlane body_floor_;                   ///< z = 0 of the body frame
   std::vector<InverseDepthPlane> expected_floor_;  ///< a section
   std::vector<std::uint8_t> cell_done_;            ///< a cell of the window: lies in a done section
-  std::vector<Measurement> row_;                   ///< of the row in hand, a column
-  std::vector<Gap> gap_;                           ///< of the row in hand, a column
+  std::vector<Worker> workers_;
 };
 
 }  // namespace floornav

@@ -9,14 +9,6 @@ namespace {
 
 constexpr float kReachSlack_m = 0.03F;
 
-/// Sums over the points of one plane.
-struct PlaneSums {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< sensor frame
-  double squared_distance = 0.0;
-  double area_m2 = 0.0;
-  std::int32_t points = 0;
-};
-
 bool is_traversable(const Surfel& surfel, const SensorView& view, const RobotSettings& robot) {
   const Eigen::Vector3f from_body = (surfel.centroid_m - view.T_world_body.translation()).cast<float>();
   const double slope_deg =
@@ -42,31 +34,32 @@ Surfel surfel_of(const SectionPlane& found, const PlaneSums& sums, int section, 
 
 }  // namespace
 
-std::vector<Surfel> make_surfels(const RoiCloud& cloud, int section, std::span<const SectionPlane> planes,
-                                 std::span<const std::int16_t> label, const SensorView& view,
-                                 const RobotSettings& robot) {
-  std::vector<PlaneSums> sums(planes.size());
+void make_surfels(const RoiCloud& cloud, int section, std::span<const SectionPlane> planes,
+                  std::span<const std::int16_t> label, const SensorView& view, const RobotSettings& robot,
+                  std::vector<PlaneSums>& sums, std::vector<Surfel>& surfels) {
+  sums.assign(planes.size(), {});
+  for (std::size_t k = 0; k < planes.size(); ++k) sums[k].plane_distance_m = planes[k].plane.distance_m();
   const float pixel_area = 1.0F / (view.camera.fx * view.camera.fy);
   for (std::int32_t p = cloud.section_begin(section);
        p < cloud.section_end[static_cast<std::size_t>(section)]; ++p) {
     const auto i = static_cast<std::size_t>(p);
     if (label[i] < 0) continue;
     const auto index = static_cast<std::size_t>(label[i]);
-    const Eigen::Vector3f ray(cloud.ray_x[i], cloud.ray_y[i], 1.0F);
     const InverseDepthPlane& plane = planes[index].plane;
-    const float depth = 1.0F / plane.inverse_depth(ray.x(), ray.y());
-    const float facing = -plane.normal().dot(ray);
+    const float inverse_depth = plane.inverse_depth(cloud.ray_x[i], cloud.ray_y[i]);
+    const float depth = 1.0F / inverse_depth;
+    // The plane's distance times its inverse depth along a ray is the cosine that the ray has with it.
+    const float facing = inverse_depth * sums[index].plane_distance_m;
     const float distance = (cloud.z[i] - depth) * facing;
     PlaneSums& sum = sums[index];
-    sum.position += (depth * ray).cast<double>();
-    sum.squared_distance += static_cast<double>(distance) * static_cast<double>(distance);
+    sum.position += (depth * Eigen::Vector3f(cloud.ray_x[i], cloud.ray_y[i], 1.0F)).cast<double>();
+    sum.squared_distance += static_cast<double>(distance * distance);
     sum.area_m2 += static_cast<double>(depth * depth * pixel_area / facing);
     ++sum.points;
   }
-  std::vector<Surfel> surfels;
+  surfels.clear();
   for (std::size_t k = 0; k < planes.size(); ++k)
     surfels.push_back(surfel_of(planes[k], sums[k], section, view, robot));
-  return surfels;
 }
 
 }  // namespace floornav

@@ -1,6 +1,7 @@
 #include "perception/window_search.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "perception/window_kernel.hpp"
 
@@ -25,14 +26,16 @@ bool WindowSearch::mean_distances(const ImagePoints& cloud, int neighbors, Paral
   const auto end_of = [&](int band) { return std::min((band + 1) * rows, image_.height()); };
 
   filled_.assign(static_cast<std::size_t>(bands), 0);
-  parallel.run(bands, [&](int band, int) {
+  const auto fill = [&](int band, int) {
     filled_[static_cast<std::size_t>(band)] = image_.fill_rows(cloud, band * rows, end_of(band)) ? 1 : 0;
-  });
+  };
+  parallel.run(bands, std::ref(fill));
   if (std::find(filled_.begin(), filled_.end(), 0) != filled_.end()) return false;
-  parallel.run(bands, [&](int band, int) {
+  const auto search = [&](int band, int) {
     search_windows(image_, neighbors, band * rows, end_of(band), mean_m_);
     finish_rows(cloud, neighbors, band * rows, end_of(band), mean_m);
-  });
+  };
+  parallel.run(bands, std::ref(search));
   for (std::size_t i = 0; i < mean_m.size(); ++i)
     if (mean_m[i] < 0.0F) left_.push_back(static_cast<std::int32_t>(i));
   mean_neighbor_distances(cloud.points, neighbors, left_, parallel, mean_m);

@@ -121,7 +121,7 @@ void PerceptionNode::process(const WaitingCloud& cloud, const Pose& T_world_body
   }
   trouble_.clear();
   budget.begin(cloud.arrival);
-  const FloorEvidence evidence = camera.perception.process(
+  const FloorEvidence& evidence = camera.perception.process(
       frame, T_world_body, parallel_, [&](std::int64_t work_ns) { return budget.spend(work_ns); });
   const depth_cloud_t& first = cloud.strips.front();
   for (surfels_t& message : to_messages(evidence, {first.source, first.session, first.frame, first.sensor}))

@@ -53,8 +53,10 @@ class SectionScene {
   std::vector<SectionPlane> find(std::uint64_t seed, const PlaneSettings& settings = {}) {
     const SensorView view(frame_, Pose::Identity());
     SectionScratch scratch;
-    return SectionPlaneFinder(settings, {})
-        .find(cloud_, 0, view, Eigen::Vector3d::UnitZ(), seed, label_, scratch);
+    std::vector<SectionPlane> planes;
+    SectionPlaneFinder(settings, {})
+        .find(cloud_, 0, view, Eigen::Vector3d::UnitZ(), seed, label_, scratch, planes);
+    return planes;
   }
 
   /// Height of a plane above a place of the body frame.
@@ -81,6 +83,7 @@ class SectionScene {
     cloud_.y.push_back(ray.y() / inverse);
     cloud_.certainty.push_back(525.0F * 0.075F / 0.067F);
     cloud_.pixel.push_back(pixel);
+    cloud_.block.push_back(pixel / 640 / 8 * 80 + pixel % 640 / 8);
   }
 
   double x_min_, x_max_;

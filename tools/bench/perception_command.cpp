@@ -113,7 +113,7 @@ void measure(FloorPerception& perception, FramePixels& memory, const TimedFrame&
   end_stage(0);
   const double decoded_ms = last.wall_ms;
   bool near_row = true;
-  const FloorEvidence evidence = perception.process(
+  const FloorEvidence& evidence = perception.process(
       frame, timed.T_world_body, parallel, [](std::int64_t) { return true; },
       [&](PerceptionStage stage) {
         end_stage(1 + static_cast<std::size_t>(stage));

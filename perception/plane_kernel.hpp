@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+
+#include "perception/inverse_depth_plane.hpp"
+#include "perception/plane_pool.hpp"
+
+namespace floornav {
+
+/// How well points support a plane.
+struct PlaneScore {
+  float gain = 0.0F;  ///< what the robust cost falls by: the sum of threshold^2 - residual^2 of the inliers
+  float inliers = 0.0F;  ///< share of the points
+};
+
+/// Of all points of the pool; `threshold` in sigmas. The same bits whatever the instruction set.
+PlaneScore score_of(const PlanePool& pool, const InverseDepthPlane& plane, float threshold);
+
+/// The normal equations of the points within `threshold` sigmas of the plane; each counts as often as
+/// `weights` says, where it is not empty. The same bits whatever the instruction set.
+PlaneFit fit_inliers(const PlanePool& pool, const InverseDepthPlane& plane, float threshold,
+                     std::span<const float> weights);
+
+}  // namespace floornav
