@@ -6,6 +6,8 @@
 namespace floornav {
 namespace {
 
+constexpr std::int32_t kSurePoints = 8;  ///< of a column: no depth edge throws so many into one cell
+
 Level new_level(const Sighting& sighting) {
   Level level;
   static_cast<Surface&>(level) = sighting;
@@ -133,7 +135,11 @@ void CellMemory::see_through_top() {
 
 bool CellMemory::fuse(const CellView& view, const FusionLimits& limits) {
   Seen seen;
-  for (const Sighting& sighting : view.sightings) place(sighting, limits, seen);
+  const bool floor_known = lower_.trusted() && !lower_.column;
+  for (Sighting sighting : view.sightings) {
+    if (floor_known && sighting.column && sighting.points < kSurePoints) sighting.points = 1;
+    place(sighting, limits, seen);
+  }
   const bool doubted = forget_unseen(view, limits, seen);
   merge(limits);
   if (!view.sightings.empty()) {

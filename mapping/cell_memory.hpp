@@ -55,9 +55,10 @@ struct FusionLimits {
 class CellMemory {
  public:
   /// Fuses one frame. A sighting supports the level that it fits (Kalman filter by both variances, so that
-  /// nearer views win) or makes a new one. A level that was not seen loses support where a ray passed below
-  /// it or something below it was seen; four times as much where that view is twice as sharp. False where the
-  /// view told nothing.
+  /// nearer views win) or makes a new one; a few points alone above a floor that is already trusted decide
+  /// only when a third frame has seen them, since what depth edges throw there is seen once or twice. A level
+  /// that was not seen loses support where a ray passed below it or something below it was seen; four times
+  /// as much where that view is twice as sharp. False where the view told nothing.
   bool fuse(const CellView& view, const FusionLimits& limits);
 
   /// The surface that decides: the highest trusted one; null where there is none.

@@ -107,6 +107,31 @@ TEST(CellMemory, NewObstacleDecidesInItsFirstFrame) {
   EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.3F);
 }
 
+TEST(CellMemory, AFewPointsAboveKnownFloorNeedAThirdFrame) {
+  CellMemory memory;
+  for (int view = 0; view < 5; ++view) fuse(memory, {plane(0)});
+  fuse(memory, {plane(0), column(0.3F, 4)});
+  fuse(memory, {plane(0), column(0.3F, 4)});
+  EXPECT_FLOAT_EQ(memory.decider()->z_m, 0);
+  fuse(memory, {plane(0), column(0.3F, 4)});
+  EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.3F);
+}
+
+TEST(CellMemory, AFewPointsSeenOnceAboveKnownFloorAreForgotten) {
+  CellMemory memory;
+  for (int view = 0; view < 5; ++view) fuse(memory, {plane(0)});
+  fuse(memory, {plane(0), column(0.3F, 4)});
+  fuse(memory, {plane(0)});
+  fuse(memory, {plane(0)});
+  EXPECT_FALSE(memory.upper().exists());
+}
+
+TEST(CellMemory, AFewPointsDecideWhereNoFloorWasKnown) {
+  CellMemory memory;
+  fuse(memory, {plane(0), column(0.3F, 4)});
+  EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.3F);
+}
+
 TEST(CellMemory, FloorSeenBelowClearsAnObstacleThatLeft) {
   CellMemory memory;
   for (int view = 0; view < 100; ++view) fuse(memory, {plane(0), column(1.0F)});
