@@ -38,7 +38,7 @@ TEST(FrameContent, OneCountInOnePixelIsAChange) {
     FrameContent content(0.2, 2);
     content.look_at(same);
     Pixels other = same;
-    other[i] ^= 1U << (i % 16);
+    other[i] = static_cast<std::uint16_t>(other[i] ^ 1U << (i % 16));
     if (other[i] == 0) continue;
     ASSERT_EQ(content.look_at(other), Verdict::kGood) << i;
   }
