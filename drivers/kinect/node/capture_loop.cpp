@@ -3,6 +3,8 @@
 #include <thread>
 #include <utility>
 
+#include <sched.h>
+
 #include "drivers/kinect/node/host_time.hpp"
 
 namespace floornav {
@@ -17,6 +19,15 @@ std::int64_t monotonic_us() {
   return std::chrono::duration_cast<std::chrono::microseconds>(
              std::chrono::steady_clock::now().time_since_epoch())
       .count();
+}
+
+/// True where the calling thread now runs before all ordinary ones. What the library starts does not inherit
+/// it.
+bool claim_priority() {
+  constexpr int kCapture = 50;
+  sched_param param{};
+  param.sched_priority = kCapture;
+  return ::sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &param) == 0;
 }
 
 const char* name_of(FrameFlaw flaw) {
@@ -59,6 +70,14 @@ CaptureLoop::CaptureLoop(std::unique_ptr<DepthDevice> device, Connection::Period
     : device_(std::move(device)), connection_(periods), tell_(std::move(tell)) {}
 
 void CaptureLoop::run() {
+  if (!claim_priority()) {
+    const std::scoped_lock lock(mutex_);
+    if (tell_)
+      tell_(
+          "frames may be lost on a busy machine: real-time priority is not allowed here (LimitRTPRIO=50 in "
+          "the "
+          "unit, or rtprio in /etc/security/limits.conf)");
+  }
   while (goes_on()) turn();
   timed("closing the device", [this] { device_->close(); });
   const std::scoped_lock lock(mutex_);

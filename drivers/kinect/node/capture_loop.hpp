@@ -30,7 +30,9 @@ class CaptureLoop {
   CaptureLoop(std::unique_ptr<DepthDevice> device, Connection::Periods periods,
               std::function<void(const std::string&)> tell);
 
-  /// On a thread of its own: until stop(), then closes the device.
+  /// On a thread of its own: until stop(), then closes the device. The thread takes a real-time priority
+  /// where that is allowed: OpenNI2 keeps one frame, which is lost where it is not fetched before the next
+  /// one.
   void run();
 
   // What follows may be called from another thread.
