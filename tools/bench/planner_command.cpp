@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -13,8 +12,11 @@
 
 #include "planner/search/a_star.hpp"
 #include "planner/search/bit_grid.hpp"
+#include "planner/search/grid_search.hpp"
 #include "planner/search/jump_point_search.hpp"
 #include "tools/bench/movingai.hpp"
+#include "tools/bench/planner_goals.hpp"
+#include "tools/bench/processor_time.hpp"
 #ifdef FLOORNAV_BOOST_GRAPH
 #include "tools/bench/boost_peer.hpp"
 #endif
@@ -38,21 +40,12 @@ struct Solution {
 using Solver = std::function<Solution(const MovingAiProblem&)>;
 
 struct Measured {
-  std::vector<double> microseconds;
+  Times times;
   std::size_t optimal = 0;
   std::int64_t expanded = 0;
 
-  [[nodiscard]] double mean_us() const {
-    double sum = 0;
-    for (const double us : microseconds) sum += us;
-    return microseconds.empty() ? 0.0 : sum / static_cast<double>(microseconds.size());
-  }
-  [[nodiscard]] double p99_us() const {
-    if (microseconds.empty()) return 0;
-    std::vector<double> sorted = microseconds;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[(sorted.size() - 1) * 99 / 100];
-  }
+  [[nodiscard]] std::size_t count() const { return times.us.size(); }
+  [[nodiscard]] std::size_t wrong() const { return count() - optimal; }
 };
 
 /// As the published length, but for the rounding of its last digit or of its eight-digit sums.
@@ -80,6 +73,17 @@ Solver jump_point_solver(const SearchGrid& grid) {
   };
 }
 
+Solver chosen_solver(const SearchGrid& grid) {
+  auto bits = std::make_shared<BitGrid>();
+  project(grid, *bits);
+  return [&grid, bits, search = std::make_shared<GridSearch>(),
+          path = std::vector<GridCell>()](const MovingAiProblem& p) mutable {
+    if (search->search(grid, bits.get(), p.start, p.goal) != SearchOutcome::kFound) return Solution{};
+    search->path(path);
+    return Solution{true, path_length(path), 0};
+  };
+}
+
 /// The peer, where the build has it. Costs in steps of 5741 and 8119 stand for lengths exactly enough to
 /// compare.
 Solver boost_solver([[maybe_unused]] const SearchGrid& grid) {
@@ -96,25 +100,16 @@ Solver boost_solver([[maybe_unused]] const SearchGrid& grid) {
 using Report =
     std::function<void(std::size_t problem, const MovingAiProblem&, const Solution&, double microseconds)>;
 
-/// Of this thread: other programs on the machine do not count.
-double processor_time_us() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
 Measured measure(const std::vector<MovingAiProblem>& problems, int every, const Solver& solve,
                  const Report& report) {
   Measured measured;
   for (std::size_t i = 0; i < problems.size(); i += static_cast<std::size_t>(every)) {
     const MovingAiProblem& p = problems[i];
-    const double begin_us = processor_time_us();
-    const Solution s = solve(p);
-    const double took_us = processor_time_us() - begin_us;
-    measured.microseconds.push_back(took_us);
+    Solution s;
+    measured.times.add([&] { s = solve(p); });
     measured.optimal += has_published_length(p, s) ? 1 : 0;
     measured.expanded += s.expanded;
-    report(i, p, s, took_us);
+    report(i, p, s, measured.times.us.back());
   }
   return measured;
 }
@@ -144,38 +139,60 @@ void print_csv(const Options& options, const Benchmark& benchmark) {
           });
 }
 
-void print_table_line(const Options& options, const Benchmark& benchmark) {
+struct Row {
+  std::string map;
+  Measured a_star, jumps, chosen, boost;
+};
+
+Row measure_row(const Options& options, const Benchmark& benchmark) {
   const SearchGrid grid = read_movingai_map(benchmark.map);
   const auto problems = read_movingai_problems(benchmark.scen);
-  const Report silent = [](std::size_t, const MovingAiProblem&, const Solution&, double) {};
-  const Measured a_star = measure(problems, options.every, a_star_solver(grid), silent);
-  const Measured jumps = measure(problems, options.every, jump_point_solver(grid), silent);
-  const std::size_t count = a_star.microseconds.size();
-  const double expanded = static_cast<double>(a_star.expanded) / static_cast<double>(count);
-  fmt::print("{:<18}{:>6}{:>10.1f}{:>10.1f}{:>8.1f}{:>8}{:>10.1f}{:>10.1f}{:>8}{:>8.1f}",
-             benchmark.map.stem().string(), count, a_star.mean_us(), a_star.p99_us(),
-             expanded / a_star.mean_us(), count - a_star.optimal, jumps.mean_us(), jumps.p99_us(),
-             count - jumps.optimal, a_star.mean_us() / jumps.mean_us());
-  if (const Solver boost = boost_solver(grid)) {
-    const Measured peer = measure(problems, options.every, boost, silent);
-    fmt::print("{:>10.1f}{:>8}{:>8.1f}", peer.mean_us(), count - peer.optimal,
-               peer.mean_us() / a_star.mean_us());
-  } else {
-    fmt::print("  (built without Boost.Graph)");
-  }
+  const auto with = [&](const Solver& solver) {
+    return measure(problems, options.every, solver,
+                   [](std::size_t, const MovingAiProblem&, const Solution&, double) {});
+  };
+  Row row;
+  row.map = benchmark.map.stem().string();
+  row.a_star = with(a_star_solver(grid));
+  row.jumps = with(jump_point_solver(grid));
+  row.chosen = with(chosen_solver(grid));
+  if (const Solver boost = boost_solver(grid)) row.boost = with(boost);
+  return row;
+}
+
+void print_row(const Row& row) {
+  const double a_star_us = row.a_star.times.mean(), jumps_us = row.jumps.times.mean();
+  fmt::print("{:<16}{:>6}{:>10.1f}{:>8.1f}{:>7}{:>10.1f}{:>7}{:>8.1f}{:>10.1f}{:>7}{:>8.2f}", row.map,
+             row.a_star.count(), a_star_us,
+             static_cast<double>(row.a_star.expanded) / static_cast<double>(row.a_star.count()) / a_star_us,
+             row.a_star.wrong(), jumps_us, row.jumps.wrong(), a_star_us / jumps_us, row.chosen.times.mean(),
+             row.chosen.wrong(), row.chosen.times.mean() / std::min(a_star_us, jumps_us));
+  if (row.boost.count() > 0)
+    fmt::print("{:>10.1f}{:>7}{:>8.1f}", row.boost.times.mean(), row.boost.wrong(),
+               row.boost.times.mean() / a_star_us);
   fmt::print("\n");
+  std::fflush(stdout);
+}
+
+void print_table(const Options& options) {
+  fmt::print("Mean microseconds of processor time a problem; wrong: lengths other than the published ones\n");
+  fmt::print("{:<16}{:>6}{:>10}{:>8}{:>7}{:>10}{:>7}{:>8}{:>10}{:>7}{:>8}{:>10}{:>7}{:>8}\n", "map", "n",
+             "A*", "exp/us", "wrong", "jumps", "wrong", "A*/j", "chosen", "wrong", "/best", "Boost A*",
+             "wrong", "B/A*");
+  for (const Benchmark& benchmark : benchmarks_of(options)) print_row(measure_row(options, benchmark));
+#ifndef FLOORNAV_BOOST_GRAPH
+  fmt::print("(built without Boost.Graph)\n");
+#endif
 }
 
 void run(const Options& options) {
-  if (options.csv) {
-    fmt::print("map,problem,optimal,length,microseconds,expanded\n");
-    for (const Benchmark& benchmark : benchmarks_of(options)) print_csv(options, benchmark);
+  if (!options.csv) {
+    print_table(options);
+    if (!options.folder.empty()) print_planner_goals(options.folder);
     return;
   }
-  fmt::print("Microseconds of processor time a problem; wrong: lengths other than the published ones\n");
-  fmt::print("{:<18}{:>6}{:>10}{:>10}{:>8}{:>8}{:>10}{:>10}{:>8}{:>8}{:>10}{:>8}{:>8}\n", "map", "n", "A*",
-             "p99", "exp/us", "wrong", "jumps", "p99", "wrong", "A*/j", "Boost A*", "wrong", "B/A*");
-  for (const Benchmark& benchmark : benchmarks_of(options)) print_table_line(options, benchmark);
+  fmt::print("map,problem,optimal,length,microseconds,expanded\n");
+  for (const Benchmark& benchmark : benchmarks_of(options)) print_csv(options, benchmark);
 }
 
 }  // namespace
@@ -187,7 +204,9 @@ void add_planner_command(CLI::App& app) {
   auto* const map = command->add_option("--map", options->map, "a *.map of the Moving AI benchmarks");
   auto* const scen = command->add_option("--scen", options->scen, "its *.scen")->needs(map);
   map->needs(scen);
-  command->add_option("--folder", options->folder, "all X.map with their X.map.scen in a folder")
+  command
+      ->add_option("--folder", options->folder,
+                   "all X.map with their X.map.scen in a folder, then large maps, costs and changes")
       ->excludes(map);
   command->add_flag("--csv", options->csv,
                     "a line a problem: map,problem,optimal,length,microseconds,expanded");

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <ctime>
+#include <vector>
+
+namespace floornav {
+
+/// Of this thread: other programs on the machine do not count.
+inline double processor_time_us() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
+
+/// Times of many tries, in microseconds.
+struct Times {
+  std::vector<double> us;
+
+  template <class Work>
+  void add(const Work& work) {
+    const double begin_us = processor_time_us();
+    work();
+    us.push_back(processor_time_us() - begin_us);
+  }
+  [[nodiscard]] double mean() const {
+    double sum = 0;
+    for (const double t : us) sum += t;
+    return us.empty() ? 0.0 : sum / static_cast<double>(us.size());
+  }
+  /// The one that a share of all, 0..1, stays under.
+  [[nodiscard]] double at(double share) const {
+    if (us.empty()) return 0;
+    std::vector<double> sorted = us;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  }
+};
+
+}  // namespace floornav
