@@ -55,6 +55,11 @@ class BucketQueue {
     return true;
   }
 
+  /// The item that comes next within the present priority, or else `none`.
+  [[nodiscard]] std::uint32_t next_or(std::uint32_t none) const {
+    return heads_[current_] == kNone ? none : entries_[heads_[current_]].item;
+  }
+
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
   struct Entry {
