@@ -133,7 +133,7 @@ TEST(ExampleController, DrivesThroughRandomRoomsOnAFullMapAlmostAsShortAsCanBe) 
   robot.radius_m = 0.52;
   std::vector<double> ratios;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    const RandomWorld world = random_world(seed, 0.5, robot);
+    const RandomWorld world = random_world(seed, 0.5, 0, robot);
     Drive drive(world, robot);
     ASSERT_EQ(drive.to_goal(), "") << "seed " << seed;
     const double off_m = (drive.base().state().position_m - *world.scene.goal_m).norm();
