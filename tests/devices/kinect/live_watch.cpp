@@ -126,7 +126,7 @@ std::string LiveWatch::flaw(std::int64_t raised, std::int64_t may_lose) const {
     if (counts.received == 0) return fmt::format("nothing came on {}", name);
   for (const char* source : {"kinect", "perception", "mapper", "planner"})
     if (!health_.contains(source)) return fmt::format("nothing heard of {}", source);
-  if (std::abs(raised - clouds_ - frame_gaps_) > kAtTheEnds)
+  if (std::abs(raised - clouds_ - frame_gaps_) > kAtTheEnds + may_lose)
     return fmt::format("{} frames of the device, but {} clouds and {} told as lost", raised, clouds_,
                        frame_gaps_);
   if (stop_.since && !stop_.ms) return "the planner does not stop where the camera is gone";

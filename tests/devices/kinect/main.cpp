@@ -114,7 +114,7 @@ void add_run(CLI::App& app, RunOptions& options, int& code) {
   sub->add_option("--drive", options.drive.seconds,
                   "be the robot's base for so many seconds too: POSE and GOAL out; then end and report");
   sub->add_option("--unplug-at", options.drive.unplug_at_s,
-                  "unplug the camera after so many seconds of --drive, for 1.5 s");
+                  "unplug the camera after so many seconds of --drive, for 2.5 s");
   sub->add_option("--may-lose", options.drive.may_lose, "frames that --drive forgives")
       ->capture_default_str();
   sub->add_option("--goal", options.drive.goal_m, "m, local frame")->delimiter(',')->capture_default_str();

@@ -66,7 +66,7 @@ void watch_for(double seconds, LiveWatch& watch, const std::atomic<bool>& stop) 
 
 LiveReport drive_live(VirtualKinect& kinect, const LogScene& scene, const LiveTask& task,
                       const std::atomic<bool>& stop) {
-  constexpr double kUnpluggedFor_s = 1.5;
+  constexpr double kUnpluggedFor_s = 2.5;
   LcmTransport bus(task.lcm_url);
   LiveWatch watch(bus, kinect, scene.period_us);
   std::atomic<bool> ended = false;

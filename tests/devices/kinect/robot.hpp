@@ -13,7 +13,7 @@ namespace floornav {
 struct LiveTask {
   std::array<double, 2> goal_m = {3.0, 0.0};  ///< local frame
   double seconds = 0;
-  double unplug_at_s = 0;  ///< the camera is unplugged then, for a second and a half; 0: never
+  double unplug_at_s = 0;  ///< the camera is unplugged then, for two seconds and a half; 0: never
   int may_lose = 0;        ///< frames
   std::string lcm_url;
 };

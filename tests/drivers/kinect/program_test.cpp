@@ -2,6 +2,7 @@
 #include <set>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "drivers/kinect/node/openni_device.hpp"
 #include "floornav/depth_cloud_t.hpp"
@@ -58,6 +59,18 @@ TEST_F(KinectProgram, RecordsAnLcmLogAndAnOniFile) {
   OpenNiDevice recording(settings, {Playback::kByHand, ""});
   recording.open();
   EXPECT_GT(recording.frames_in_file(), 10);
+}
+
+TEST_F(KinectProgram, TheBenchMeasuresWhateverOpenNiOpens) {
+  const Outcome outcome =
+      run_program({"virtual-kinect", "run", "--control", path("control"), "--seconds", "100", "--",
+                   FLOORNAV_PROGRAMS "/floornav-bench", "driver", "--frames", "30", "--json"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const nlohmann::json measured = nlohmann::json::parse(outcome.out);
+  EXPECT_GE(measured.at("frames"), 30);
+  EXPECT_TRUE(measured.at("cpu_ms").is_number());
+  EXPECT_GT(measured.at("p99_ms"), 0);
+  EXPECT_LT(measured.at("strips").at("near_ms"), measured.at("strips").at("whole_ms"));
 }
 
 TEST_F(KinectProgram, ARecordingThatIsNotThereIsTold) {
