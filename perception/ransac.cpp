@@ -111,6 +111,7 @@ std::optional<InverseDepthPlane> find_plane(const PlanePool& pool, const PlaneQu
     best = refined;
     needed = std::min(needed, hypotheses_needed(best->score.inliers));
   }
+  scratch.hypotheses += scored;
   if (!best) return std::nullopt;
   InverseDepthPlane plane = best->plane;
   for (int i = 0; i < kFinalRefinements; ++i) {

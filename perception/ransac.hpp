@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include <Eigen/Core>
@@ -26,6 +27,7 @@ struct PlaneQuery {
 /// Scratch memory of find_plane.
 struct RansacScratch {
   PlanePool sample;
+  std::int64_t hypotheses = 0;  ///< scored so far, in all calls
 };
 
 /// The plane that most points of the pool support: RANSAC with a robust cost (MSAC: the sum of squared

@@ -16,14 +16,24 @@ FrameStack::FrameStack(const PerceptionSettings& perception, const MappingSettin
                        const RobotSettings& robot)
     : perception_(perception, robot, serial_),
       mapper_(mapping, robot),
-      executor_({&perception_, &mapper_},
-                [this](const EncodedMessage& message, Micros) {
-                  if (message.channel != channel::kGridMap) return;
-                  grid_map_t map;
-                  map.decode(message.bytes.data(), 0, static_cast<int>(message.bytes.size()));
-                  receiver_.apply(map);
-                }),
+      executor_({&perception_, &mapper_}, [this](const EncodedMessage& message, Micros) { hear(message); }),
       out_({"bench", 1}) {}
+
+void FrameStack::hear(const EncodedMessage& message) {
+  const auto* const bytes = message.bytes.data();
+  const auto size = static_cast<int>(message.bytes.size());
+  if (message.channel == channel::kSurfels) surfel_bytes_ += message.bytes.size();
+  if (message.channel == channel::kGridMap) {
+    grid_map_t map;
+    map.decode(bytes, 0, size);
+    receiver_.apply(map);
+  }
+  if (message.channel == channel::kTerrainMap) {
+    terrain_map_t map;
+    map.decode(bytes, 0, size);
+    terrain_.apply(map);
+  }
+}
 
 void FrameStack::deliver(const EncodedMessage& message, std::int64_t utime_us) {
   executor_.deliver({utime_us, message.channel, message.bytes});
@@ -40,7 +50,10 @@ void FrameStack::see(const DepthSensor& sensor, std::span<const std::uint16_t> p
   out_.publish(is_kinect ? channel::kKinectCloud : channel::kBumblebeeCloud,
                cloud_message(sensor, pixels, utime_us, frames_));
   pose(utime_us + kPoseMargin_us);
-  for (const EncodedMessage& message : out_.take()) deliver(message, utime_us + kPoseMargin_us);
+  for (const EncodedMessage& message : out_.take()) {
+    if (message.channel != channel::kPose) cloud_bytes_ += message.bytes.size();
+    deliver(message, utime_us + kPoseMargin_us);
+  }
   ++frames_;
 }
 

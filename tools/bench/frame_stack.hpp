@@ -5,6 +5,7 @@
 
 #include "mapping/node/grid_map_message.hpp"
 #include "mapping/node/mapper_node.hpp"
+#include "mapping/node/terrain_map_message.hpp"
 #include "perception/node/perception_node.hpp"
 #include "runtime/process/replay_executor.hpp"
 #include "tools/simulator/depth_sensor.hpp"
@@ -22,14 +23,22 @@ class FrameStack {
   void see(const DepthSensor& sensor, std::span<const std::uint16_t> pixels, const Pose& T_world_body);
 
   [[nodiscard]] const GridMap& published() const { return receiver_.map(); }
+  [[nodiscard]] const TerrainMap& terrain() const { return terrain_.map(); }
+  /// Of all SURFELS and of all clouds so far, as encoded.
+  [[nodiscard]] std::size_t surfel_bytes() const { return surfel_bytes_; }
+  [[nodiscard]] std::size_t cloud_bytes() const { return cloud_bytes_; }
 
  private:
   void deliver(const EncodedMessage& message, std::int64_t utime_us);
+  void hear(const EncodedMessage& message);
 
   Serial serial_;
   PerceptionNode perception_;
   MapperNode mapper_;
   GridMapReceiver receiver_;
+  TerrainMapReceiver terrain_;
+  std::size_t surfel_bytes_ = 0;
+  std::size_t cloud_bytes_ = 0;
   ReplayExecutor executor_;
   Outbox out_;
   std::int64_t frames_ = 0;

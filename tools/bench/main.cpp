@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/bench/driver_command.hpp"
+#include "tools/bench/figure_command.hpp"
 #include "tools/bench/outliers_command.hpp"
 #include "tools/bench/perception_command.hpp"
 #include "tools/bench/planner_command.hpp"
@@ -14,6 +15,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   try {
     floornav::add_driver_command(app);
+    floornav::add_figure_command(app);
     floornav::add_outliers_command(app);
     floornav::add_perception_command(app);
     floornav::add_planner_command(app);

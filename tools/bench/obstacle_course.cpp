@@ -74,6 +74,24 @@ void add(const Shapes& shape, Shapes& all) {
   all.cylinders.insert(all.cylinders.end(), shape.cylinders.begin(), shape.cylinders.end());
 }
 
+/// Whether the corners of the block around an obstacle are all in the image.
+bool in_the_image(const Obstacle& obstacle, const Pinhole& camera, const Pose& T_world_sensor) {
+  const Pose T_sensor_world = T_world_sensor.inverse();
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      const Eigen::Vector2d corner =
+          obstacle.footprint.world(obstacle.footprint.half_m.cwiseProduct(Eigen::Vector2d(x, y)));
+      for (const double z : {0.0, obstacle.height_m}) {
+        const Eigen::Vector3d p = T_sensor_world * Eigen::Vector3d(corner.x(), corner.y(), z);
+        const double u = static_cast<double>(camera.fx) * p.x() / p.z() + static_cast<double>(camera.cx);
+        const double v = static_cast<double>(camera.fy) * p.y() / p.z() + static_cast<double>(camera.cy);
+        if (p.z() <= 0 || u < 0 || v < 0 || u > camera.width - 1 || v > camera.height - 1) return false;
+      }
+    }
+  }
+  return true;
+}
+
 /// Counts pixels, to know who hides whom.
 class Visibility {
  public:
@@ -131,6 +149,7 @@ ObstacleCourse random_course(const SensorSpec& sensor, const CoveredArea& area, 
     const Obstacle obstacle = random_obstacle(random, course.T_world_body, area, near);
     if ((obstacle.distance_m < kNear_m) != near || obstacle.distance_m > kFarthest_m) continue;
     if (!inside(obstacle, course.T_world_body, area) || !keeps_apart(obstacle, course.obstacles)) continue;
+    if (!in_the_image(obstacle, sensor.camera, course.T_world_body * sensor.T_body_sensor)) continue;
     std::vector<Obstacle> more = course.obstacles;
     more.push_back(obstacle);
     Shapes shapes;

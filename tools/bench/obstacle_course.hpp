@@ -31,8 +31,9 @@ struct ObstacleCourse {
   Shapes shapes;  ///< all of them
 };
 
-/// Random boxes, sloped boxes and cylinders of 5 to 40 cm, half of them nearer than 3 m, none hidden by
-/// another; the robot's place and heading are random, so that nothing is aligned with cells or sections.
+/// Random boxes, sloped boxes and cylinders of 5 to 40 cm, half of them nearer than 3 m, whole in the
+/// image, none hidden by another; the robot's place and heading are random, so that nothing is aligned with
+/// cells or sections.
 ObstacleCourse random_course(const SensorSpec& sensor, const CoveredArea& area, std::uint64_t seed);
 
 }  // namespace floornav

@@ -117,7 +117,7 @@ SensorSpec bench_sensor(SensorKind sensor, bool correlated) {
 
 void judge(const ObstacleCourse& course, const GridMap& map, Table1Row& row) {
   // a vertex stands for a cell around its centre: the cells that touch the footprint, and one around
-  const double reach_m = 1.5 * kVertex_m;
+  const double reach_m = 1.5 * map.lattice().pitch_m;
   std::vector<double> highest(course.obstacles.size(), 0.0);
   const Eigen::Vector2d robot = course.T_world_body.translation().head<2>();
   visit_vertices(map, [&](const Eigen::Vector2d& place, double z_m) {

@@ -14,6 +14,7 @@
 #include "tools/bench/sensor_names.hpp"
 #include "tools/bench/steps.hpp"
 #include "tools/bench/table1.hpp"
+#include "tools/bench/trade_offs.hpp"
 
 namespace floornav {
 namespace {
@@ -85,10 +86,53 @@ nlohmann::json json_of(const StepRow& row) {
           {"false_per_m2", row.false_per_m2}};
 }
 
+void print_trade_offs(const std::vector<TradeOff>& trade_offs) {
+  fmt::print(
+      "\nThe four knobs, Kinect, one frame (mean error in cm, missed of "
+      "all)\n{:<20}{:<26}{:>8}{:>8}{:>9}{:>8}\n",
+      "knob", "setting", "< 3 m", "3..5.5", "missed", "ms");
+  for (const TradeOff& t : trade_offs)
+    fmt::print("{:<20}{:<26}{:>8.2f}{:>8.2f}{:>5}/{:<4}{:>7.1f}\n", t.knob, t.setting,
+               t.errors.near.mean_cm(), t.errors.far.mean_cm(), t.errors.near.missed + t.errors.far.missed,
+               t.errors.near.count + t.errors.far.count, t.perception_ms);
+}
+
+void print_claims(const MethodClaims& claims) {
+  fmt::print("\nThe dominant plane of a frame\n");
+  for (const SearchCost& search : claims.searches)
+    fmt::print("{:<28}{:>7.0f} hypotheses {:>7.2f} ms\n", search.way, search.hypotheses, search.ms);
+  fmt::print("points on planes: {:.1f} % with unlimited recursion, {:.1f} % by default\n",
+             100.0 * claims.share_on_planes, 100.0 * claims.share_by_default);
+  fmt::print("bytes a frame: {:.0f} as x, y, z floats, {:.0f} as depth_cloud_t, {:.0f} as surfels_t\n",
+             claims.float_bytes, claims.cloud_bytes, claims.surfel_bytes);
+}
+
+nlohmann::json json_of(const TradeOff& t) {
+  return {{"knob", t.knob},
+          {"setting", t.setting},
+          {"near_cm", t.errors.near.mean_cm()},
+          {"far_cm", t.errors.far.mean_cm()},
+          {"missed", t.errors.near.missed + t.errors.far.missed},
+          {"ms", t.perception_ms}};
+}
+
+nlohmann::json json_of(const MethodClaims& claims) {
+  nlohmann::json searches = nlohmann::json::array();
+  for (const SearchCost& search : claims.searches)
+    searches.push_back({{"way", search.way}, {"hypotheses", search.hypotheses}, {"ms", search.ms}});
+  return {{"searches", searches},
+          {"share_on_planes", claims.share_on_planes},
+          {"share_on_planes_by_default", claims.share_by_default},
+          {"float_bytes", claims.float_bytes},
+          {"cloud_bytes", claims.cloud_bytes},
+          {"surfel_bytes", claims.surfel_bytes}};
+}
+
 struct CommandOptions {
   std::string sensor = "both";
   bool full = false;
   int threads = 2;
+  int trade_off_configurations = 4;
   Table1Options table;
   StepOptions steps;
   bool json = false;
@@ -113,15 +157,26 @@ void run(CommandOptions& options) {
   std::vector<StepRow> steps;
   if (options.table.configurations > 0) rows = measure_table1(options.table, pool, progress);
   if (options.steps.poses > 0) steps = measure_steps(options.steps, pool, progress);
+  std::vector<TradeOff> trade_offs;
+  MethodClaims claims;
+  if (options.trade_off_configurations > 0) {
+    trade_offs = measure_trade_offs(options.trade_off_configurations, options.table.seed, progress);
+    claims = measure_claims(options.trade_off_configurations, options.table.seed);
+  }
   if (!options.json) {
     fmt::print("seed {}\n", options.table.seed);
     if (!rows.empty()) print_text(rows);
     if (!steps.empty()) print_steps(steps);
+    if (!trade_offs.empty()) print_trade_offs(trade_offs);
+    if (!trade_offs.empty()) print_claims(claims);
     return;
   }
   nlohmann::json result{{"rows", nlohmann::json::array()}, {"steps", nlohmann::json::array()}};
   for (const Table1Row& row : rows) result["rows"].push_back(json_of(row));
   for (const StepRow& row : steps) result["steps"].push_back(json_of(row));
+  for (const TradeOff& t : trade_offs) result["trade_offs"].push_back(json_of(t));
+  if (!trade_offs.empty()) result["claims"] = json_of(claims);
+  result["seed"] = options.table.seed;
   fmt::print("{}\n", result.dump());
 }
 
@@ -145,6 +200,11 @@ void add_table1_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--plain-m2", o->steps.plain_m2, "Floor without steps, for false alarms")
       ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
+  command
+      ->add_option("--trade-off-configurations", o->trade_off_configurations,
+                   "Configurations for the paper's four knobs and other claims; 0: not these")
+      ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command->add_flag("--full", o->full, "200 poses a step and 1000 m2 of plain floor: hours");
   command
