@@ -47,7 +47,8 @@ const FloorEvidence& FloorPerception::process(const DepthFrame& frame, const Pos
   const SensorView view(frame, T_world_body);
   begin(frame, view, parallel);
   end_stage(PerceptionStage::kRoi);
-  for (int row = 0; row < grid_.x_res(); ++row) {
+  order_rows();
+  for (const int row : rows_) {
     admit_row(row, admit);
     for (const int section : row_sections_) remove_section_outliers(section, frame.camera, parallel);
     end_stage(PerceptionStage::kOutliers);
@@ -81,6 +82,20 @@ void FloorPerception::begin(const DepthFrame& frame, const SensorView& view, Par
   keep_.resize(cloud_.size());
   label_.assign(cloud_.size(), kOutlier);
   floor_agreement_.clear();
+}
+
+/// The nearest row, then those that have waited too long, then the others from near to far.
+void FloorPerception::order_rows() {
+  const auto is_starved = [this](int row) {
+    for (int iy = 0; iy < grid_.y_res(); ++iy)
+      if (memory_[static_cast<std::size_t>(row * grid_.y_res() + iy)].age >= kMaxAge) return true;
+    return false;
+  };
+  rows_.clear();
+  for (int row = 0; row < grid_.x_res(); ++row)
+    if (row == 0 || is_starved(row)) rows_.push_back(row);
+  for (int row = 1; row < grid_.x_res(); ++row)
+    if (!is_starved(row)) rows_.push_back(row);
 }
 
 /// The row's sections that there is time for.

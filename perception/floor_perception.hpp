@@ -23,7 +23,8 @@
 namespace floornav {
 
 /// Asked before each section, nearest first, with an estimate of its work that is the same on every machine.
-/// False: the section is skipped and carries no evidence.
+/// False: the section is skipped and carries no evidence. A row with a section that was skipped in kMaxAge
+/// frames one after the other is asked before all rows but the nearest.
 using Admission = std::function<bool(std::int64_t work_ns)>;
 
 /// What a frame goes through: outliers and planes once for each row of sections.
@@ -37,6 +38,8 @@ using StageEnd = std::function<void(PerceptionStage)>;
 /// The same frames give the same evidence, bit for bit, with any number of workers.
 class FloorPerception {
  public:
+  static constexpr std::int16_t kMaxAge = 10;  ///< frames
+
   /// Throws std::invalid_argument where the ROI is empty.
   FloorPerception(const PerceptionSettings& settings, const RobotSettings& robot);
 
@@ -53,6 +56,7 @@ class FloorPerception {
   };
 
   void begin(const DepthFrame& frame, const SensorView& view, Parallel& parallel);
+  void order_rows();
   void admit_row(int row, const Admission& admit);
   void remove_section_outliers(int section, const Pinhole& camera, Parallel& parallel);
   void find_section_planes(int section, std::int64_t utime_us, const SensorView& view,
@@ -77,6 +81,7 @@ class FloorPerception {
 
   // Of the frame in hand; kept so that a frame allocates nothing.
   FloorEvidence evidence_;
+  std::vector<int> rows_;          ///< of sections, in the order of their turn
   std::vector<int> row_sections_;  ///< admitted ones of the row in hand
   RoiCloud cloud_;
   std::vector<std::uint8_t> keep_;

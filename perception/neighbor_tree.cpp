@@ -103,4 +103,22 @@ void mean_neighbor_distances(const PointsView& points, int neighbors, std::span<
       [&](std::size_t i) { return static_cast<std::size_t>(wanted[i]); }, parallel, mean_m);
 }
 
+void mean_distances_of_few(const PointsView& points, int neighbors, std::span<float> mean_m) {
+  if (points.size() < 2) {
+    std::fill(mean_m.begin(), mean_m.end(), 0.0F);
+    return;
+  }
+  const std::size_t others =
+      std::min(static_cast<std::size_t>(std::min(neighbors, kMaxNeighbors)), points.size() - 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    NearestDistances nearest(others + 1);
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const float dx = points.x[i] - points.x[j], dy = points.y[i] - points.y[j],
+                  dz = points.z[i] - points.z[j];
+      if (!nearest.addPoint((dx * dx + dy * dy) + dz * dz, static_cast<std::uint32_t>(j))) break;
+    }
+    mean_m[i] = nearest.mean_of_others();
+  }
+}
+
 }  // namespace floornav

@@ -28,4 +28,7 @@ void mean_neighbor_distances(const PointsView& points, int neighbors, Parallel& 
 void mean_neighbor_distances(const PointsView& points, int neighbors, std::span<const std::int32_t> wanted,
                              Parallel& parallel, std::span<float> mean_m);
 
+/// The same by comparing each point with each other: for a few points.
+void mean_distances_of_few(const PointsView& points, int neighbors, std::span<float> mean_m);
+
 }  // namespace floornav

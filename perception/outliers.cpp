@@ -6,7 +6,7 @@ namespace floornav {
 
 namespace {
 
-/// Fewer points than this are found faster in a tree than the image is filled.
+/// Up to so many points are compared with each other faster than an image is filled.
 constexpr std::size_t kFewPoints = 64;
 
 }  // namespace
@@ -38,8 +38,11 @@ std::int64_t OutlierRemover::remove(const ImagePoints& cloud, Parallel& parallel
 
 void OutlierRemover::find_mean_distances(const ImagePoints& cloud, Parallel& parallel) {
   mean_m_.resize(cloud.points.size());
-  const bool by_window =
-      settings_.search == "window" || (settings_.search == "auto" && cloud.points.size() >= kFewPoints);
+  if (settings_.search == "auto" && cloud.points.size() <= kFewPoints) {
+    mean_distances_of_few(cloud.points, settings_.neighbors, mean_m_);
+    return;
+  }
+  const bool by_window = settings_.search != "nanoflann";
   if (by_window && window_.mean_distances(cloud, settings_.neighbors, parallel, mean_m_)) return;
   mean_neighbor_distances(cloud.points, settings_.neighbors, parallel, mean_m_);
 }

@@ -1,5 +1,6 @@
 #include "perception/floor_perception.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <thread>
 
@@ -268,6 +269,27 @@ TEST(FloorPerception, NearSectionsComeFirstAndSkippedOnesCarryNoEvidence) {
     EXPECT_TRUE(evidence.sections[static_cast<std::size_t>(surfel.section)].done);
   for (const CellEvidence& cell : evidence.cells)
     EXPECT_LT(evidence.lattice.center_of(cell.cell.ix) - scene.T_world_body.translation().x(), 2.45 + 0.1);
+}
+
+/// With time for two rows of four, the far rows have their turn too: each section within kMaxAge frames and a
+/// few more; the nearest row in every frame.
+TEST(FloorPerception, NoSectionStarvesWhenTimeIsAlwaysShort) {
+  RenderedScene scene = small_scene();
+  const DepthFrame frame = scene.render();
+  Serial serial;
+  FloorPerception perception({}, {});
+  std::vector<int> done(12, 0);
+  for (int i = 0; i < 3 * FloorPerception::kMaxAge; ++i) {
+    int asked = 0;
+    const FloorEvidence& evidence =
+        perception.process(frame, scene.T_world_body, serial, [&](std::int64_t) { return ++asked <= 6; });
+    for (std::size_t s = 0; s < evidence.sections.size(); ++s) {
+      EXPECT_LE(evidence.sections[s].age, FloorPerception::kMaxAge + 3);
+      EXPECT_TRUE(evidence.sections[s].done || evidence.sections[s].ix > 0);
+      done[s] += evidence.sections[s].done ? 1 : 0;
+    }
+  }
+  EXPECT_GE(*std::min_element(done.begin(), done.end()), 2);
 }
 
 TEST(FloorPerception, TheMapDoesNotDependOnHowTheBodyIsTurned) {
