@@ -76,7 +76,7 @@ class NibbleWriter {
     pending_ = pending_ << chain.bits | chain.nibbles;
     bits_ += chain.bits;
     put_word();  // a whole one or not: whether one is ready is hard to predict
-    out_ += 4 * (bits_ / 32);
+    out_ += std::size_t{4} * (bits_ / 32);
     bits_ %= 32;
   }
 
