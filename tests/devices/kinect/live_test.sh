@@ -4,7 +4,7 @@
 # that may be busy, where a few may be, if they are told. The short form unplugs the camera half-way: the robot must stop.
 #   live_test.sh BUILD
 set -euo pipefail
-build=$1
+build=$(cd "$1" && pwd)
 seconds=9 options="--may-lose 9 --unplug-at 4"
 [ -z "${FLOORNAV_LONG:-}" ] || seconds=60 options="--may-lose 0"
 root=$(cd "$(dirname "$0")/../../.." && pwd)
