@@ -20,8 +20,10 @@ struct StepEdge {
   double hidden_m = 0;       ///< floor behind the edge, where it falls, that the camera does not see
 };
 
-/// A floor with strips of one height whose edges lie at kStepDistances_m, all turned by one random angle; the
-/// robot's place and heading in the world are random, so that nothing is aligned with cells or sections.
+/// A floor with strips of one height whose edges lie at kStepDistances_m, all turned by one random angle, so
+/// that one image shows a step at every distance; the robot's place and heading in the world are random, so
+/// that nothing is aligned with cells or sections. In half of the courses the robot stands on the first
+/// strip: each edge rises there that falls in the others.
 struct StepCourse {
   Pose T_world_body = Pose::Identity();  ///< at the last frame
   Shapes shapes;

@@ -1,18 +1,16 @@
 #include "tools/bench/steps.hpp"
 
 #include <array>
-#include <cmath>
 #include <memory>
-#include <optional>
+#include <mutex>
 #include <span>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "tools/bench/frame_stack.hpp"
-#include "tools/bench/sensor_names.hpp"
+#include "tools/bench/step_check.hpp"
 #include "tools/bench/table1.hpp"
 #include "tools/simulator/random.hpp"
+#include "tools/simulator/raycaster.hpp"
 #include "tools/simulator/vehicle.hpp"
 
 namespace floornav {
@@ -21,181 +19,168 @@ namespace {
 constexpr std::array<double, 4> kHeights_m{0.01, 0.02, 0.03, 0.05};
 constexpr int kFrames = 10;
 constexpr double kMovePerFrame_m = 0.02;
-constexpr double kSide_m = 0.1;    ///< of the places compared, before and behind an edge
-constexpr double kAlong_m = 0.15;  ///< between places along an edge
-constexpr double kPlainSpacing_m = 0.2;
-constexpr double kFalseDifference_m = 0.005;
 constexpr std::uint64_t kPlainAtOnce = 4;  ///< whatever the number of threads
 
-std::optional<double> height_at(const GridMap& map, const Eigen::Vector2d& place) {
-  const CellIndex cell = map.lattice().cell_of(place.x(), place.y());
-  const GridTile* tile = map.find(GridMap::tile_of(cell));
-  if (tile == nullptr) return std::nullopt;
-  const std::int32_t index = GridTile::index_of(cell);
-  if (tile->state[static_cast<std::size_t>(index)] == VertexState::kUnknown) return std::nullopt;
-  return static_cast<double>(tile->height_m(index));
+/// One of the noises, and how many frames the map has seen.
+struct View {
+  bool correlated = false;
+  bool single_frame = true;
+};
+constexpr std::array<View, 4> kViews{{{false, true}, {false, false}, {true, true}, {true, false}}};
+
+std::size_t number_of(const View& view) {
+  return (view.correlated ? 2U : 0U) + (view.single_frame ? 0U : 1U);
 }
 
-/// The number of the neighbour in direction (x, y), each -1, 0 or 1.
-int neighbour_of(std::int32_t x, std::int32_t y) {
-  for (int k = 0; k < 8; ++k)
-    if (kNeighbourX[static_cast<std::size_t>(k)] == x && kNeighbourY[static_cast<std::size_t>(k)] == y)
-      return k;
-  return 0;
-}
+template <class Result>
+using OfViews = std::array<Result, kViews.size()>;
 
-std::int32_t sign(std::int32_t x) {
-  return (x > 0) - (x < 0);
-}
+/// A sensor with one noise, and a stack that drives with it.
+class Observer {
+ public:
+  Observer(SensorKind kind, bool correlated, std::uint64_t key)
+      : sensor_(bench_sensor(kind, correlated), key), driven_(new_stack()) {}
 
-/// Whether an edge is closed on the straight chain of known vertices between two places.
-bool has_closed_edge(const GridMap& map, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-  CellIndex cell = map.lattice().cell_of(from.x(), from.y());
-  const CellIndex end = map.lattice().cell_of(to.x(), to.y());
-  while (!(cell == end)) {
-    const CellIndex next{cell.ix + sign(end.ix - cell.ix), cell.iy + sign(end.iy - cell.iy)};
-    if (map.state(cell) == VertexState::kUnknown || map.state(next) == VertexState::kUnknown) return false;
-    const GridTile& tile = *map.find(GridMap::tile_of(cell));
-    const std::uint8_t edges = tile.edges[static_cast<std::size_t>(GridTile::index_of(cell))];
-    if ((edges >> neighbour_of(next.ix - cell.ix, next.iy - cell.iy) & 1) == 0) return true;
-    cell = next;
+  void see(std::span<const float> depth, int frame, const Pose& T_world_body) {
+    const auto pixels = sensor_.measure(depth, frame);
+    driven_->see(sensor_, pixels, T_world_body);
+    if (frame + 1 < kFrames) return;
+    single_ = new_stack();
+    single_->see(sensor_, pixels, T_world_body);
   }
-  return false;
-}
 
-/// The last frames of a robot that drives slowly up to where the course has it.
-std::unique_ptr<FrameStack> drive_up(const StepCourse& course, DepthSensor& sensor, int frames) {
-  auto stack = std::make_unique<FrameStack>(perception_for(sensor.model().kind, SectionSettings{}),
-                                            MappingSettings{}, RobotSettings{});
-  for (int frame = 0; frame < frames; ++frame) {
-    const Eigen::Vector2d ahead = course.T_world_body.linear().col(0).head<2>().normalized();
-    const Eigen::Vector2d end = course.T_world_body.translation().head<2>();
-    const PlanarState state{end - (frames - 1 - frame) * kMovePerFrame_m * ahead, ahead};
-    const Pose T_world_body = body_on_floor(course.shapes, state);
-    stack->see(sensor, sensor.measure(course.shapes, T_world_body, frame), T_world_body);
+  [[nodiscard]] const SensorSpec& sensor() const { return sensor_.model(); }
+  [[nodiscard]] const GridMap& map(bool single_frame) const {
+    return (single_frame ? single_ : driven_)->published();
   }
-  return stack;
-}
 
-struct Alarms {
-  double seen_m2 = 0;
-  int count = 0;
+ private:
+  [[nodiscard]] std::unique_ptr<FrameStack> new_stack() const {
+    return std::make_unique<FrameStack>(perception_for(sensor_.model().kind, SectionSettings{}),
+                                        MappingSettings{}, RobotSettings{});
+  }
+
+  DepthSensor sensor_;
+  std::unique_ptr<FrameStack> driven_;
+  std::unique_ptr<FrameStack> single_;  ///< sees the last frame alone
 };
 
-Alarms alarms_of_frame(const SensorSpec& spec, int frames, std::uint64_t key) {
-  const StepCourse course = plain_course(key);
-  DepthSensor sensor(spec, key);
-  const PlainCheck check = check_plain(drive_up(course, sensor, frames)->published(), course.shapes.ground);
-  if (check.places == 0) throw std::runtime_error("nothing was seen of a plain floor");
-  return {check.places * kPlainSpacing_m * kPlainSpacing_m, check.alarms};
+/// Drives slowly up to where the course has the robot; calls judge(map) for each view and returns the
+/// answers.
+template <class Judge>
+auto drive_up(const StepCourse& course, SensorKind kind, std::uint64_t key, const Judge& judge) {
+  std::array<Observer, 2> observers{Observer(kind, false, key), Observer(kind, true, key)};
+  const SensorSpec& spec = observers[0].sensor();
+  const Eigen::Vector2d ahead = course.T_world_body.linear().col(0).head<2>().normalized();
+  const Eigen::Vector2d end = course.T_world_body.translation().head<2>();
+  std::vector<float> depth(static_cast<std::size_t>(spec.camera.width) *
+                           static_cast<std::size_t>(spec.camera.height));
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const PlanarState state{end - (kFrames - 1 - frame) * kMovePerFrame_m * ahead, ahead};
+    const Pose T_world_body = body_on_floor(course.shapes, state);
+    cast_depth(course.shapes, spec.camera, T_world_body * spec.T_body_sensor, depth);
+    for (Observer& observer : observers) observer.see(depth, frame, T_world_body);
+  }
+  OfViews<decltype(judge(observers[0].map(true)))> answers;
+  for (const View& view : kViews)
+    answers[number_of(view)] = judge(observers[view.correlated ? 1 : 0].map(view.single_frame));
+  return answers;
 }
 
-double false_alarms_per_m2(const SensorSpec& spec, int frames, const StepOptions& options,
-                           Parallel& parallel) {
-  Alarms all;
-  for (std::uint64_t first = 0; all.seen_m2 < options.plain_m2; first += kPlainAtOnce) {
-    std::array<Alarms, kPlainAtOnce> some;
-    parallel.run(static_cast<int>(kPlainAtOnce), [&](int index, int) {
-      const auto i = static_cast<std::size_t>(index);
-      some[i] = alarms_of_frame(spec, frames, random_key({options.seed, first + i}));
+/// Which of a course's edges a map shows.
+using Found = std::array<bool, kStepDistances_m.size()>;
+
+OfViews<Found> edges_found(SensorKind kind, double height_m, std::uint64_t key) {
+  const StepCourse course = step_course(height_m, key);
+  return drive_up(course, kind, key, [&](const GridMap& map) {
+    Found found{};
+    for (std::size_t i = 0; i < found.size(); ++i) found[i] = shows_step(map, course.edges[i]);
+    return found;
+  });
+}
+
+OfViews<PlainCheck> alarms_raised(SensorKind kind, std::uint64_t key) {
+  const StepCourse course = plain_course(key);
+  const auto checks =
+      drive_up(course, kind, key, [&](const GridMap& map) { return check_plain(map, course.shapes.ground); });
+  for (const PlainCheck& check : checks)
+    if (check.places == 0) throw std::runtime_error("nothing was seen of a plain floor");
+  return checks;
+}
+
+/// Drives of one sensor.
+class StepTrials {
+ public:
+  StepTrials(SensorKind kind, const StepOptions& options, Parallel& parallel)
+      : kind_(kind), options_(options), parallel_(parallel) {}
+
+  [[nodiscard]] int step_drives() const { return static_cast<int>(kHeights_m.size()) * options_.poses; }
+
+  /// Calls tell_done() after each drive.
+  void run(const std::function<void()>& tell_done) {
+    found_.resize(static_cast<std::size_t>(step_drives()));
+    parallel_.run(step_drives(), [&](int number, int) {
+      const auto n = static_cast<std::size_t>(number);
+      const std::size_t pose = n / kHeights_m.size();
+      found_[n] =
+          edges_found(kind_, kHeights_m[n % kHeights_m.size()], random_key({options_.seed, pose, 0x57E9}));
+      tell_done();
     });
-    for (const Alarms& alarms : some) {
-      all.seen_m2 += alarms.seen_m2;
-      all.count += alarms.count;
+    while (plain_[number_of({})].seen_m2() < options_.plain_m2) see_more_plain();
+  }
+
+  void add_rows(const View& view, std::vector<StepRow>& rows) const {
+    const std::size_t v = number_of(view);
+    const double alarms = plain_[v].alarms / plain_[v].seen_m2();
+    for (std::size_t h = 0; h < kHeights_m.size(); ++h) {
+      for (std::size_t d = 0; d < kStepDistances_m.size(); ++d) {
+        int found = 0;
+        for (std::size_t n = h; n < found_.size(); n += kHeights_m.size()) found += found_[n][v][d] ? 1 : 0;
+        rows.push_back({kind_, view.correlated, kHeights_m[h], kStepDistances_m[d],
+                        view.single_frame ? 1 : kFrames, options_.poses, found, alarms});
+      }
     }
   }
-  return all.count / all.seen_m2;
-}
 
-/// Which of a course's edges the map shows.
-std::array<bool, kStepDistances_m.size()> found_at(const SensorSpec& spec, int frames, double height_m,
-                                                   std::uint64_t key) {
-  const StepCourse course = step_course(height_m, key);
-  DepthSensor sensor(spec, key);
-  const auto stack = drive_up(course, sensor, frames);
-  std::array<bool, kStepDistances_m.size()> found{};
-  for (std::size_t i = 0; i < found.size(); ++i) found[i] = shows_step(stack->published(), course.edges[i]);
-  return found;
-}
-
-void measure_height(const SensorSpec& spec, const StepOptions& options, Parallel& parallel,
-                    std::span<StepRow> rows) {
-  std::vector<std::array<bool, kStepDistances_m.size()>> found(static_cast<std::size_t>(options.poses));
-  parallel.run(options.poses, [&](int pose, int) {
-    const auto p = static_cast<std::size_t>(pose);
-    found[p] = found_at(spec, rows[0].frames, rows[0].height_m, random_key({options.seed, p, 0x57E9}));
-  });
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].poses = options.poses;
-    for (const auto& of_pose : found) rows[i].found += of_pose[i] ? 1 : 0;
+ private:
+  void see_more_plain() {
+    std::array<OfViews<PlainCheck>, kPlainAtOnce> some;
+    parallel_.run(static_cast<int>(kPlainAtOnce), [&](int index, int) {
+      const auto i = static_cast<std::size_t>(index);
+      some[i] = alarms_raised(kind_, random_key({options_.seed, plain_drives_ + i}));
+    });
+    plain_drives_ += kPlainAtOnce;
+    for (const auto& checks : some) {
+      for (std::size_t v = 0; v < checks.size(); ++v) {
+        plain_[v].places += checks[v].places;
+        plain_[v].alarms += checks[v].alarms;
+      }
+    }
   }
-}
+
+  SensorKind kind_;
+  const StepOptions& options_;
+  Parallel& parallel_;
+  std::vector<OfViews<Found>> found_;  ///< a drive; the heights of a pose follow each other
+  OfViews<PlainCheck> plain_{};
+  std::uint64_t plain_drives_ = 0;
+};
 
 }  // namespace
 
-bool shows_step(const GridMap& map, const StepEdge& edge) {
-  const Eigen::Vector2d along(-edge.across.y(), edge.across.x());
-  int places = 0;
-  int shown = 0;
-  for (int k = -2; k <= 2; ++k) {
-    const Eigen::Vector2d place = edge.middle_m + k * kAlong_m * along;
-    const Eigen::Vector2d before = place - kSide_m * edge.across;
-    const Eigen::Vector2d behind = place + (kSide_m + edge.hidden_m) * edge.across;
-    const auto low = height_at(map, before);
-    const auto high = height_at(map, behind);
-    ++places;
-    if (!low || !high) continue;
-    const bool right_height = std::fabs(*high - *low - edge.rise_m) <= 0.5 * std::fabs(edge.rise_m);
-    if (right_height || has_closed_edge(map, before, behind)) ++shown;
-  }
-  return 2 * shown >= places;
-}
-
-PlainCheck check_plain(const GridMap& map, const Ground& ground) {
-  PlainCheck check;
-  const auto spacing = static_cast<std::int32_t>(std::lround(kPlainSpacing_m / map.lattice().pitch_m));
-  for (const CellIndex tile : map.sorted_tiles()) {
-    for (std::int32_t j = 0; j < GridTile::kSide; j += spacing) {
-      for (std::int32_t i = 0; i < GridTile::kSide; i += spacing) {
-        const Eigen::Vector2d here(map.lattice().center_of(tile.ix * GridTile::kSide + i),
-                                   map.lattice().center_of(tile.iy * GridTile::kSide + j));
-        const auto z = height_at(map, here);
-        if (!z) continue;
-        ++check.places;
-        bool alarm = false;
-        for (const Eigen::Vector2d& step :
-             {Eigen::Vector2d(kPlainSpacing_m, 0), Eigen::Vector2d(0, kPlainSpacing_m)}) {
-          const auto other = height_at(map, here + step);
-          if (!other) continue;
-          const double wrong_m = *other - *z - ground.slope.dot(step);
-          alarm =
-              alarm || std::fabs(wrong_m) >= kFalseDifference_m || has_closed_edge(map, here, here + step);
-        }
-        check.alarms += alarm ? 1 : 0;
-      }
-    }
-  }
-  return check;
-}
-
 std::vector<StepRow> measure_steps(const StepOptions& options, Parallel& parallel,
-                                   const std::function<void(const std::string&)>& progress) {
+                                   const std::function<void(int, int)>& tell_done) {
   std::vector<StepRow> rows;
+  std::mutex mutex;
+  int done = 0;
   for (const SensorKind kind : options.sensors) {
-    for (const bool correlated : {false, true}) {
-      const SensorSpec spec = bench_sensor(kind, correlated);
-      for (const int frames : {1, kFrames}) {
-        progress(fmt::format("steps: {}, {} noise, {} frames a pose, {} poses", name_of(kind),
-                             noise_name(correlated), frames, options.poses));
-        const double alarms = false_alarms_per_m2(spec, frames, options, parallel);
-        for (const double height_m : kHeights_m) {
-          const std::size_t first = rows.size();
-          for (const double distance_m : kStepDistances_m)
-            rows.push_back({kind, correlated, height_m, distance_m, frames, 0, 0, alarms});
-          measure_height(spec, options, parallel, std::span(rows).subspan(first));
-        }
-      }
-    }
+    StepTrials trials(kind, options, parallel);
+    const int all = static_cast<int>(options.sensors.size()) * trials.step_drives();
+    trials.run([&] {
+      const std::scoped_lock lock(mutex);
+      tell_done(++done, all);
+    });
+    for (const View& view : kViews) trials.add_rows(view, rows);
   }
   return rows;
 }

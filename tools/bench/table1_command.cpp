@@ -12,9 +12,11 @@
 
 #include "runtime/process/thread_pool.hpp"
 #include "tools/bench/sensor_names.hpp"
+#include "tools/bench/step_course.hpp"
 #include "tools/bench/steps.hpp"
 #include "tools/bench/table1.hpp"
 #include "tools/bench/trade_offs.hpp"
+#include "tools/progress/progress.hpp"
 
 namespace floornav {
 namespace {
@@ -139,6 +141,7 @@ struct CommandOptions {
 };
 
 constexpr int kFullPoses = 200;
+constexpr std::uint64_t kPrintedSeed = 1001;
 
 void settle(CommandOptions& options) {
   if (options.sensor == "kinect") options.table.sensors = {SensorKind::kKinect};
@@ -156,7 +159,10 @@ void run(CommandOptions& options) {
   std::vector<Table1Row> rows;
   std::vector<StepRow> steps;
   if (options.table.configurations > 0) rows = measure_table1(options.table, pool, progress);
-  if (options.steps.poses > 0) steps = measure_steps(options.steps, pool, progress);
+  if (options.steps.poses > 0) {
+    Progress drives("drives over steps");
+    steps = measure_steps(options.steps, pool, [&](int done, int all) { drives.at(done, all); });
+  }
   std::vector<TradeOff> trade_offs;
   MethodClaims claims;
   if (options.trade_off_configurations > 0) {
@@ -188,6 +194,7 @@ void add_table1_command(CLI::App& app) {
   const auto o = std::make_shared<CommandOptions>();
   o->steps.poses = 10;
   o->steps.plain_m2 = 200;
+  o->table.seed = kPrintedSeed;
   command->add_option("--sensor", o->sensor)
       ->check(CLI::IsMember({"kinect", "bumblebee", "both"}))
       ->capture_default_str();
@@ -195,10 +202,16 @@ void add_table1_command(CLI::App& app) {
       ->add_option("--configurations", o->table.configurations, "Obstacle configurations a row; 0: no table")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command->add_option("--step-poses", o->steps.poses, "Random poses for each step; 0: no steps")
+  command
+      ->add_option("--step-poses", o->steps.poses,
+                   "Random poses for each height of step; 0: no steps. One drive of ten frames shows an edge "
+                   "at each of the six distances; its last frame alone is the single frame; both noises "
+                   "disturb the same depths")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
-  command->add_option("--plain-m2", o->steps.plain_m2, "Floor without steps, for false alarms")
+  command
+      ->add_option("--plain-m2", o->steps.plain_m2,
+                   "Level and gently sloped floor without steps, for false alarms, with the same settings")
       ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
   command
@@ -206,10 +219,11 @@ void add_table1_command(CLI::App& app) {
                    "Configurations for the paper's four knobs and other claims; 0: not these")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command->add_flag("--full", o->full, "200 poses a step and 1000 m2 of plain floor: hours");
+  command->add_flag("--full", o->full, "200 poses a step and 1000 m2 of plain floor: half an hour and more");
   command
       ->add_option("--seed", o->table.seed,
-                   "Of the configurations and the noise; tune on others than you print")
+                   "Of the configurations, poses and noise. The printed tables are of 1001; what is tuned is "
+                   "tuned on seeds below 1000")
       ->capture_default_str();
   command->add_option("--threads", o->threads)->check(CLI::Range(1, 256))->capture_default_str();
   command->add_flag("--json", o->json, "For programs");

@@ -1,4 +1,4 @@
-#include "tools/bench/steps.hpp"
+#include "tools/bench/step_check.hpp"
 
 #include <cmath>
 
