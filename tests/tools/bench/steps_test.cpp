@@ -1,9 +1,8 @@
-#include "tools/bench/step_check.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "tools/bench/step_check.hpp"
 #include "tools/simulator/surface.hpp"
 
 namespace floornav {
