@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "perception/cell_points.hpp"
+#include "perception/cell_rise.hpp"
 #include "perception/evidence.hpp"
 #include "perception/surfels.hpp"
 
@@ -16,15 +17,27 @@ struct CellScratch {
   std::vector<PlaneSums> sums;
 };
 
-/// Sums up what a cell's points say: which surfel decides it (the highest that holds a fair share of them),
-/// the mean height with its variance, and the robust top. The cell number stays as it is. `points` must not
-/// be empty.
+/// What the points on the surfel that decides a cell say together.
+struct DecidingSurfel {
+  std::int16_t surfel = -1;  ///< index into FloorEvidence::surfels; -1: none decides
+  float mean_z_m = 0.0F;     ///< of its points as moved onto the plane
+  float max_z_m = 0.0F;
+  CellRise rise;  ///< its group is left to the caller
+};
+
+/// Finds the surfel that decides a cell: the highest that holds a fair share of its points. Of two surfels
+/// that lie closer than noise throws a point, the one with more points counts. `points` must not be empty.
+DecidingSurfel find_deciding_surfel(std::span<const CellPoint> points, std::size_t surfels,
+                                    CellScratch& scratch);
+
+/// Sums up what a cell's points say: the mean height with its variance, and the robust top. The cell number
+/// stays as it is.
 ///
-/// The mean is the deciding plane's height there plus the cell's own mean rise above it, drawn towards the
-/// plane as far as the rise is not significant: d max(0, 1 - s^2 var / d^2) with s = `significance_sigmas`.
-/// So flat floor stays flat and a true centimetre shows. The top is the plane's top unless enough points
-/// stand clearly above it; then it is a quantile of those, never the highest point.
-void summarize_cell(std::span<const CellPoint> points, std::size_t surfels, float significance_sigmas,
+/// The mean is the deciding plane's height there plus the rise above it that is no accident (`rise_m`). The
+/// top is the plane's top unless enough points stand clearly above it; then it is a quantile of those, never
+/// the highest point. Where no surfel decides they are the points' own mean and quantile. `alike` points
+/// count as one measurement.
+void summarize_cell(std::span<const CellPoint> points, const DecidingSurfel& decider, float rise_m,
                     CellScratch& scratch, CellEvidence& cell);
 
 }  // namespace floornav

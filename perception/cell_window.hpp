@@ -31,6 +31,8 @@ class CellWindow {
   }
 
   [[nodiscard]] std::int32_t count() const { return size_x_ * size_y_; }
+  [[nodiscard]] std::int32_t size_x() const { return size_x_; }
+  [[nodiscard]] std::int32_t size_y() const { return size_y_; }
   [[nodiscard]] const Lattice& lattice() const { return lattice_; }
 
   /// Number of the cell at a place of the local world frame, -1 outside the window.

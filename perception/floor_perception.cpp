@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "perception/noise_correlation.hpp"
 #include "perception/surfels.hpp"
 
 namespace floornav {
@@ -16,6 +17,7 @@ namespace {
 /// Estimated work of a point, from the ROI to its cell.
 constexpr std::int64_t kWorkPerPoint_ns = 1500;
 constexpr int kCellsPerPiece = 512;
+constexpr double kLeastDepth_m = 0.1;
 
 PerceptionSettings checked(const PerceptionSettings& settings) {
   const RoiSettings& roi = settings.roi;
@@ -25,6 +27,14 @@ PerceptionSettings checked(const PerceptionSettings& settings) {
   if (planes > std::numeric_limits<std::int16_t>::max())
     throw std::invalid_argument("sections and planes.max_planes allow more than 32767 planes a frame");
   return settings;
+}
+
+/// How wide a cell is in the image, as seen at a height.
+float width_px(CellIndex cell, float z_m, const Lattice& lattice, const SensorView& view) {
+  const Eigen::Vector3d middle(lattice.center_of(cell.ix), lattice.center_of(cell.iy),
+                               static_cast<double>(z_m));
+  const double depth_m = view.T_world_sensor.linear().col(2).dot(middle - view.T_world_sensor.translation());
+  return view.camera.fx * static_cast<float>(lattice.pitch_m / std::max(depth_m, kLeastDepth_m));
 }
 
 }  // namespace
@@ -179,23 +189,50 @@ void FloorPerception::collect_cells(const SensorView& view, Parallel& parallel) 
   tracer_.trace(measurer_, view, results_, window, parallel, sight_lines_);
   find_seen_cells(window);
   evidence_.cells.assign(seen_cells_.size(), {});
-  const auto significance = static_cast<float>(settings_.cells.significance_sigmas);
+  deciders_.resize(seen_cells_.size());
+  rises_.assign(static_cast<std::size_t>(window.count()), {});
+  const float alike_px = alike_length_px(cloud_, label_, results_);
   const int count = static_cast<int>(seen_cells_.size());
-  const auto summarize = [&](int piece, int worker) {
-    for (int i = piece * kCellsPerPiece; i < std::min(count, (piece + 1) * kCellsPerPiece); ++i) {
-      const std::int32_t number = seen_cells_[static_cast<std::size_t>(i)];
-      const auto points = cell_points_.of(number);
-      CellEvidence& cell = evidence_.cells[static_cast<std::size_t>(i)];
-      cell.cell = window.cell(number);
-      if (sight_lines_.passed(number))
-        cell.ray_z_m = sight_lines_.lowest_z_m[static_cast<std::size_t>(number)];
-      cell.no_return = points.empty() && sight_lines_.no_return(number);
-      if (!points.empty())
-        summarize_cell(points, evidence_.surfels.size(), significance,
-                       cell_scratch_[static_cast<std::size_t>(worker)], cell);
-    }
+  const int pieces = (count + kCellsPerPiece - 1) / kCellsPerPiece;
+  const auto decide = [&](int piece, int worker) {
+    for (int i = piece * kCellsPerPiece; i < std::min(count, (piece + 1) * kCellsPerPiece); ++i)
+      decide_cell(static_cast<std::size_t>(i), cell_scratch_[static_cast<std::size_t>(worker)]);
   };
-  parallel.run((count + kCellsPerPiece - 1) / kCellsPerPiece, std::ref(summarize));
+  parallel.run(pieces, std::ref(decide));
+  const auto summarize = [&](int piece, int worker) {
+    for (int i = piece * kCellsPerPiece; i < std::min(count, (piece + 1) * kCellsPerPiece); ++i)
+      summarize_seen_cell(static_cast<std::size_t>(i), window, view, alike_px,
+                          cell_scratch_[static_cast<std::size_t>(worker)]);
+  };
+  parallel.run(pieces, std::ref(summarize));
+}
+
+/// Finds what decides a seen cell, and how far its points are above it.
+void FloorPerception::decide_cell(std::size_t i, CellScratch& scratch) {
+  const auto points = cell_points_.of(seen_cells_[i]);
+  DecidingSurfel& decider = deciders_[i];
+  decider =
+      points.empty() ? DecidingSurfel{} : find_deciding_surfel(points, evidence_.surfels.size(), scratch);
+  if (decider.surfel < 0) return;
+  const bool floor = evidence_.surfels[static_cast<std::size_t>(decider.surfel)].dominant;
+  decider.rise.group = floor ? CellRise::kFloor : decider.surfel;
+  rises_[static_cast<std::size_t>(seen_cells_[i])] = decider.rise;
+}
+
+void FloorPerception::summarize_seen_cell(std::size_t i, const CellWindow& window, const SensorView& view,
+                                          float alike_px, CellScratch& scratch) {
+  const std::int32_t number = seen_cells_[i];
+  const auto points = cell_points_.of(number);
+  CellEvidence& cell = evidence_.cells[i];
+  cell.cell = window.cell(number);
+  if (sight_lines_.passed(number)) cell.ray_z_m = sight_lines_.lowest_z_m[static_cast<std::size_t>(number)];
+  cell.no_return = points.empty() && sight_lines_.no_return(number);
+  if (points.empty()) return;
+  const CellNoise noise{width_px(cell.cell, points.front().z_m, evidence_.lattice, view), alike_px};
+  const auto significance = static_cast<float>(settings_.cells.significance_sigmas);
+  const float rise_m =
+      deciders_[i].surfel < 0 ? 0.0F : significant_rise(rises_, window, number, significance, noise);
+  summarize_cell(points, deciders_[i], rise_m, scratch, cell);
 }
 
 void FloorPerception::find_seen_cells(const CellWindow& window) {

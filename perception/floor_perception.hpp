@@ -66,6 +66,9 @@ class FloorPerception {
   void collect_surfels();
   void collect_cells(const SensorView& view, Parallel& parallel);
   void find_seen_cells(const CellWindow& window);
+  void decide_cell(std::size_t i, CellScratch& scratch);
+  void summarize_seen_cell(std::size_t i, const CellWindow& window, const SensorView& view, float alike_px,
+                           CellScratch& scratch);
   void remember(const SensorView& view);
 
   PerceptionSettings settings_;
@@ -92,6 +95,8 @@ class FloorPerception {
   CellPoints cell_points_;
   SightLines sight_lines_;
   std::vector<std::int32_t> seen_cells_;
+  std::vector<DecidingSurfel> deciders_;  ///< a seen cell
+  std::vector<CellRise> rises_;           ///< a cell of the window
   std::vector<CellScratch> cell_scratch_;
 };
 

@@ -12,7 +12,7 @@ constexpr float kVar_m2 = 1e-4F;  // 1 cm, as far floor has it
 CellEvidence summarized(const std::vector<CellPoint>& points) {
   CellScratch scratch;
   CellEvidence cell;
-  summarize_cell(points, 2, 2.5F, scratch, cell);
+  summarize_cell(points, find_deciding_surfel(points, 2, scratch), 0.0F, scratch, cell);
   return cell;
 }
 
