@@ -71,7 +71,7 @@ TEST(CellRise, CellsOfAnotherPlaneDoNotCount) {
   EXPECT_EQ(significant_rise(rises, CellWindow(Lattice{}, roi, Pose::Identity()), 3, 2.5F, {}), 0.0F);
 }
 
-/// A floor of 200 x 100 pixels whose noise is the mean over n neighbours of a row.
+/// A floor of 400 x 100 pixels whose noise is the mean over n neighbours of a row.
 class FloorNoise : public ::testing::TestWithParam<int> {};
 
 TEST_P(FloorNoise, IsAlikeOverTheWindowThatMadeIt) {
