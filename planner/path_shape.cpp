@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/known_line.hpp"
+#include "planner/clear_way.hpp"
 #include "planner/rounding.hpp"
 #include "planner/surface_profile.hpp"
 
@@ -56,15 +56,24 @@ class PathWriter {
   double z_m_;
 };
 
-/// The route as far as it is known to be free; its way out may lie in the inflation of an obstacle.
-std::vector<GridPoint> known_corners(const PlanningGrid& grid, const Route& route, bool& whole) {
+/// The route as far as it is known to be free, turns included; its way out may lie in the inflation of an
+/// obstacle.
+std::vector<GridPoint> known_corners(const PlanningGrid& grid, const Route& route, double heading_rad,
+                                     bool& whole) {
   std::vector<GridPoint> corners{route.corners.front()};
   whole = true;
   for (std::size_t i = 1; i < route.corners.size() && whole; ++i) {
     const GridPoint a = route.corners[i - 1], b = route.corners[i];
-    const double part = i <= route.way_out ? 1.0 : known_free_part(grid, a, b);
+    if (a == b) continue;
+    const double next_rad = std::atan2(b.y - a.y, b.x - a.x);
+    double part = 1.0;
+    if (i > route.way_out)
+      part = turn_clear(grid, a, heading_rad, next_rad, Avoid::kBlockedAndUnknown)
+                 ? known_free_part(grid, a, b)
+                 : 0.0;
     whole = part == 1.0;
     if (part > 0) corners.push_back(between(a, b, part));
+    heading_rad = next_rad;
   }
   return corners;
 }
@@ -72,14 +81,14 @@ std::vector<GridPoint> known_corners(const PlanningGrid& grid, const Route& rout
 }  // namespace
 
 DrivablePath drivable_path(const PlanningGrid& grid, const GridMap& map, const Route& route,
-                           const RobotSettings& robot, double spacing_m, double z_m) {
+                           const RobotSettings& robot, double spacing_m, const Pose& T_world_body) {
   bool whole = false;
-  const std::vector<GridPoint> corners = known_corners(grid, route, whole);
+  const std::vector<GridPoint> corners = known_corners(grid, route, heading_of(T_world_body), whole);
   const double radius = robot.max_speed_mps / robot.max_turn_rate_radps / grid.pitch_m();
   const std::size_t fixed = std::min(route.way_out, corners.size() - 1);
   const std::vector<GridPoint> line = rounded(grid, corners, fixed, radius);
   std::size_t way_out_points = 0;
-  PathWriter writer(grid, map, robot.track_m, z_m);
+  PathWriter writer(grid, map, robot.track_m, T_world_body.translation().z());
   for (std::size_t i = 1; i < line.size(); ++i) {
     const GridPoint a = line[i - 1], b = line[i];
     const double length_m = std::hypot(b.x - a.x, b.y - a.y) * grid.pitch_m();
@@ -92,6 +101,7 @@ DrivablePath drivable_path(const PlanningGrid& grid, const GridMap& map, const R
     for (int k = writer.points.empty() ? 0 : 1; k <= pieces; ++k)
       writer.add(between(a, b, static_cast<double>(k) / pieces), heading_rad);
   }
+  if (fixed > 0 && way_out_points == 0) way_out_points = writer.points.size();
   return {std::move(writer.points), writer.length_m, way_out_points, whole};
 }
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "planner/known_line.hpp"
+#include "planner/clear_way.hpp"
 #include "planner/path_shape.hpp"
 #include "planner/speed_profile.hpp"
 #include "planner/way_out.hpp"
@@ -20,9 +20,6 @@ constexpr double kEndCells = 0.75;
 constexpr double kReachedCells = 1.5;
 /// Beyond its own radius a robot that does not fit where it stands looks this far for a place where it does.
 constexpr double kWayOut_m = 0.3;
-/// Jump points that the quick search after an interrupt may expand, some milliseconds' worth, in looks at its
-/// interrupt.
-constexpr int kLooksOfQuickSearch = 200;
 
 std::string in_metres(double value) {
   std::array<char, 32> text{};
@@ -82,8 +79,7 @@ Plan Planner::plan(const GridMap& map, const Pose& T_world_body, const Goal& goa
   plan.map_epoch = map.epoch;
   plan.map_version = map.version;
   if (plan.route.corners.empty()) return plan;
-  DrivablePath path = drivable_path(grid_, map, plan.route, robot_, settings_.point_spacing_m,
-                                    T_world_body.translation().z());
+  DrivablePath path = drivable_path(grid_, map, plan.route, robot_, settings_.point_spacing_m, T_world_body);
   set_speeds(path.points, settings_, robot_);
   plan.points = std::move(path.points);
   plan.way_out_points = path.way_out_points;
@@ -147,14 +143,14 @@ Plan Planner::search(const Pose& T_world_body, const Goal& goal, const Plan* pre
                    "no room for the robot within " + in_metres(goal.tolerance_m) + " of the goal");
   }
   const GridCell from = start->way.back();
-  const BitGrid* const whole = grid_.no_cell_parted() ? &grid_.open_cells() : nullptr;
-  const SearchOutcome outcome = search_.search(grid_.search_grid(), whole, from, *target, interrupt);
+  const SearchOutcome outcome = search_.search(grid_, from, start->heading_rad, *target, interrupt);
   auto kept = previous != nullptr ? route_ahead(*previous, *start) : std::nullopt;
   Plan plan;
   if (outcome == SearchOutcome::kInterrupted) {
     if (kept) {
       plan.route = *std::move(kept);
-    } else if (shortest_way(from, *target)) {
+    } else if (search_.shortest(grid_, from, *target)) {
+      search_.path(cells_);
       plan.route = route_of_cells(*start, goal);
       plan.reason = "out of time: the shortest way, not the cheapest";
     } else {
@@ -163,6 +159,7 @@ Plan Planner::search(const Pose& T_world_body, const Goal& goal, const Plan* pre
     return plan;
   }
   if (outcome == SearchOutcome::kNoPath) {
+    if (search_.stuck_at_start()) return refusal(PlanStatus::kStartBlocked, "no room to turn");
     target = nearest_to_goal(goal, true);
     if (!target)
       return refusal(PlanStatus::kNoPath,
@@ -174,16 +171,6 @@ Plan Planner::search(const Pose& T_world_body, const Goal& goal, const Plan* pre
   plan.route = route_of_cells(*start, goal);
   if (kept && !clearly_better(plan.route, *kept, heading_of(T_world_body))) plan.route = *std::move(kept);
   return plan;
-}
-
-/// Better late than never: when there was no time for the cheapest way.
-bool Planner::shortest_way(GridCell start, GridCell target) {
-  int looks = 0;
-  if (search_.shortest(grid_.open_cells(), start, target, [&] { return ++looks > kLooksOfQuickSearch; }) !=
-      SearchOutcome::kFound)
-    return false;
-  search_.path(cells_);
-  return true;
 }
 
 bool Planner::clearly_better(const Route& next, const Route& kept, double heading_rad) const {
@@ -206,9 +193,15 @@ bool Planner::holds(const Plan& plan, const GridMap& map, const Pose& T_world_bo
 
 std::optional<Planner::Start> Planner::start_at(const Pose& T_world_body) const {
   const auto here = T_world_body.translation();
-  auto way = way_out(grid_, grid_.cell_of(here.x(), here.y()), robot_.radius_m + kWayOut_m);
+  const GridCell cell = grid_.cell_of(here.x(), here.y());
+  Start start{grid_.point_of(here.x(), here.y()), heading_of(T_world_body), {cell}};
+  if (grid_.search_grid().contains(cell) && grid_.passable(cell) &&
+      fits(grid_, start.here, start.heading_rad, Avoid::kBlocked))
+    return start;
+  auto way = way_out(grid_, cell, robot_.radius_m + kWayOut_m);
   if (!way) return std::nullopt;
-  return Start{grid_.point_of(here.x(), here.y()), *std::move(way)};
+  start.way = *std::move(way);
+  return start;
 }
 
 std::string Planner::why_start_is_blocked(const Pose& T_world_body) const {
@@ -245,18 +238,23 @@ Route Planner::with_way_out(const Start& start, std::vector<GridPoint> corners) 
 /// The way that the last search found, with the robot's and the goal's own places at its ends where they lie
 /// in the open.
 Route Planner::route_of_cells(const Start& start, const Goal& goal) const {
-  std::vector<GridPoint> corners = shorten(grid_, cells_);
+  // A way out ends where any heading fits.
+  const std::vector<GridPoint> centres = shorten(grid_, cells_, start.heading_rad);
+  std::vector<GridPoint> corners = centres;
   const auto replace = [&](GridPoint& corner, GridPoint place, GridPoint neighbour) {
     const bool stays_known =
         known_free_part(grid_, place, neighbour) == 1.0 || known_free_part(grid_, corner, neighbour) < 1.0;
-    if (stays_known && line_open(grid_.search_grid(), place, neighbour)) corner = place;
+    if (stays_known && line_clear(grid_, place, neighbour)) corner = place;
   };
   if (corners.size() > 1) {
     if (start.way.size() == 1) replace(corners.front(), start.here, corners[1]);
     const GridPoint end = grid_.point_of(goal.x_m, goal.y_m);
     if (distance(end, corners.back()) <= kEndCells) replace(corners.back(), end, corners[corners.size() - 2]);
   }
-  return with_way_out(start, std::move(corners));
+  Route route = with_way_out(start, std::move(corners));
+  if (!grid_.outline().is_circle() && !route_open(grid_, route, start.heading_rad))
+    route = with_way_out(start, centres);  // the turns are others than between centres
+  return route;
 }
 
 /// What is left of a plan's route for the robot; nothing where it has left it or a line of it is shut.
@@ -264,10 +262,10 @@ std::optional<Route> Planner::route_ahead(const Plan& plan, const Start& start) 
   auto corners =
       corners_ahead(moved(plan.route, grid_.origin()), start.here, settings_.off_path_m / grid_.pitch_m());
   if (!corners) return std::nullopt;
-  const bool straight = start.way.size() == 1 && line_open(grid_.search_grid(), start.here, corners->front());
+  const bool straight = start.way.size() == 1 && line_clear(grid_, start.here, corners->front());
   corners->insert(corners->begin(), straight ? start.here : centre(start.way.back()));
   Route route = with_way_out(start, *std::move(corners));
-  if (!route_open(grid_.search_grid(), route)) return std::nullopt;
+  if (!route_open(grid_, route, start.heading_rad)) return std::nullopt;
   return route;
 }
 

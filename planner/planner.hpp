@@ -7,19 +7,20 @@
 #include "mapping/grid_map.hpp"
 #include "planner/plan.hpp"
 #include "planner/planning_grid.hpp"
-#include "planner/search/grid_search.hpp"
 #include "planner/settings.hpp"
+#include "planner/way_search.hpp"
 #include "runtime/geometry/pose.hpp"
 #include "runtime/geometry/robot.hpp"
 
 namespace floornav {
 
-/// Plans ways across the grid-map: a search over the cells where the robot's circle touches nothing blocked,
-/// unknown ones at a cost, of which the part over known floor is published. What it keeps between calls only
-/// saves time, but for the floor assumed around the first pose of each epoch of the map. Follows one map:
-/// forget() before another.
+/// Plans ways across the grid-map: a search over the cells where the robot's footprint touches nothing
+/// blocked, unknown ones at a cost, of which the part over known floor is published. What it keeps between
+/// calls only saves time, but for the floor assumed around the first pose of each epoch of the map. Follows
+/// one map: forget() before another.
 class Planner {
  public:
+  /// Throws as RobotOutline.
   Planner(const PlannerSettings& settings, const RobotSettings& robot)
       : settings_(settings), robot_(robot), grid_(settings, robot) {}
 
@@ -37,9 +38,10 @@ class Planner {
 
  private:
   void bring_up_to_date(const GridMap& map, const Pose& T_world_body, const Goal& goal);
-  /// Where the search starts: the robot's place, and the cells from there to where it fits.
+  /// Where the search starts: the robot's place and heading, and the cells from there to where it fits.
   struct Start {
     GridPoint here;
+    double heading_rad = 0;
     std::vector<GridCell> way;
   };
   [[nodiscard]] std::optional<Start> start_at(const Pose& T_world_body) const;
@@ -48,7 +50,6 @@ class Planner {
   Plan find_route(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Plan* previous,
                   const Interrupt& interrupt);
   Plan search(const Pose& T_world_body, const Goal& goal, const Plan* previous, const Interrupt& interrupt);
-  bool shortest_way(GridCell start, GridCell target);
   [[nodiscard]] Route with_way_out(const Start& start, std::vector<GridPoint> corners) const;
   [[nodiscard]] Route route_of_cells(const Start& start, const Goal& goal) const;
   [[nodiscard]] std::optional<Route> route_ahead(const Plan& plan, const Start& start) const;
@@ -57,7 +58,7 @@ class Planner {
   PlannerSettings settings_;
   RobotSettings robot_;
   PlanningGrid grid_;
-  GridSearch search_;
+  WaySearch search_;
   std::vector<GridCell> cells_;  ///< of the last search's path
   std::optional<AssumedFloor> assumed_;
   std::int32_t epoch_ = 0;

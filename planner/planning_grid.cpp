@@ -54,7 +54,8 @@ void PlanningGrid::start_afresh(const GridMap& map, const CellRect& needed, cons
   lattice_ = map.lattice();
   epoch_ = map.epoch;
   assumed_ = assumed;
-  const double radius_in_cells = robot_.radius_m / lattice_.pitch_m;
+  outline_ = RobotOutline(robot_, lattice_.pitch_m);
+  const double radius_in_cells = outline_.outer_radius();
   const auto least_reach = static_cast<std::int32_t>(std::ceil(radius_in_cells)) + 2;
   if (least_reach > GapScan::kMaxReach)
     throw std::invalid_argument("the robot's radius is more than " + std::to_string(GapScan::kMaxReach - 2) +
@@ -62,7 +63,8 @@ void PlanningGrid::start_afresh(const GridMap& map, const CellRect& needed, cons
   const auto comfort = static_cast<std::int32_t>(std::ceil(settings_.comfort_m / lattice_.pitch_m));
   const std::int32_t reach = std::min(least_reach + comfort, GapScan::kMaxReach);
   const double wheels_in_cells = 0.5 * robot_.track_m / lattice_.pitch_m;
-  least_gap_ = least_gap_of(radius_in_cells);
+  least_gap_ = least_gap_of(outline_.inner_radius());
+  roomy_gap_ = least_gap_of(radius_in_cells);
   least_step_gap_ = least_gap_of(std::min(wheels_in_cells, radius_in_cells));
   unknown_scan_ = GapScan(least_reach);
   step_scan_ = GapScan(least_reach);
@@ -227,6 +229,16 @@ void PlanningGrid::project_open_cells(const CellRect& rect) {
     return open_cells_.build(search_.width, search_.height, is_open);
   for (std::int32_t y = rect.y0; y < rect.y1; ++y)
     for (std::int32_t x = rect.x0; x < rect.x1; ++x) open_cells_.set({x, y}, is_open({x, y}));
+}
+
+bool PlanningGrid::clear(const RowSpan& span, GridCell from, Avoid avoid) const {
+  const unsigned kinds = avoid == Avoid::kBlocked ? kBlocked : kBlocked | kUnknown;
+  const std::int32_t y = span.y + from.y;
+  const std::int32_t x0 = std::max(span.x0 + from.x, 0), x1 = std::min(span.x1 + from.x, search_.width - 1);
+  if (y < 0 || y >= search_.height) return true;
+  unsigned found = 0;
+  for (std::int32_t x = x0; x <= x1; ++x) found |= kinds_[search_.index({x, y})];
+  return (found & kinds) == 0;
 }
 
 /// The map knows edges only between cells that were seen to be free.

@@ -6,6 +6,7 @@
 #include "mapping/grid_map.hpp"
 #include "planner/cell_rect.hpp"
 #include "planner/gap_field.hpp"
+#include "planner/robot_outline.hpp"
 #include "planner/search/bit_grid.hpp"
 #include "planner/search/line_of_sight.hpp"
 #include "planner/search/search_grid.hpp"
@@ -17,6 +18,9 @@ namespace floornav {
 /// What the planner takes a cell for.
 enum class Floor : std::uint8_t { kFree, kAssumed, kUnknown, kBlocked };
 
+/// What the robot must not touch.
+enum class Avoid : std::uint8_t { kBlocked, kBlockedAndUnknown };
+
 /// A circle, around the place where the robot started say: what was never seen in it is taken for floor.
 struct AssumedFloor {
   double x_m = 0;
@@ -26,13 +30,15 @@ struct AssumedFloor {
 };
 
 /// The grid-map as the robot's centre may move on it: a window of the map with obstacles grown by the
-/// footprint and closed edges by the wheels' track, a weight for what one would rather not drive on, and the
-/// same as bits for jump points. Follows one map: only tiles whose version changed, and what lies within
-/// reach of them, are worked out again. Eight bytes a cell.
+/// footprint's inner circle (the whole footprint where that is a circle) and closed edges by the wheels'
+/// track, a weight for what one would rather not drive on, and the same as bits for jump points. Follows one
+/// map: only tiles whose version changed, and what lies within reach of them, are worked out again. Eight
+/// bytes a cell.
 class PlanningGrid {
  public:
+  /// Throws as RobotOutline.
   PlanningGrid(const PlannerSettings& settings, const RobotSettings& robot)
-      : settings_(settings), robot_(robot) {}
+      : settings_(settings), robot_(robot), outline_(robot, 1.0) {}
 
   /// Brings the grid up to date with `map`; afterwards it covers `needed` (cells of the map). There is floor
   /// under the robot itself too, where it stands. Throws std::invalid_argument where the map's cells are too
@@ -61,12 +67,18 @@ class PlanningGrid {
   [[nodiscard]] CellIndex origin() const { return {window_.x0, window_.y0}; }
 
   [[nodiscard]] Floor floor(GridCell cell) const;
-  /// The robot's circle around the cell's centre touches nothing blocked, and its wheels no closed edge.
+  /// The inner circle around the cell's centre touches nothing blocked, and the wheels no closed edge.
   [[nodiscard]] bool passable(GridCell cell) const { return (kinds_[search_.index(cell)] & kFits) != 0; }
   /// And the circle touches nothing unknown.
   [[nodiscard]] bool known_free(GridCell cell) const {
     return (kinds_[search_.index(cell)] & (kFits | kNearUnknown)) == kFits;
   }
+  /// There is room for the footprint's outer circle on the cell and on steps from it: any heading fits.
+  [[nodiscard]] bool roomy(GridCell cell) const { return blocked_gap_[search_.index(cell)] >= roomy_gap_; }
+  /// In cells of this grid.
+  [[nodiscard]] const RobotOutline& outline() const { return outline_; }
+  /// No cell of a span, moved by `from`, is what is to be avoided; beyond the grid nothing is.
+  [[nodiscard]] bool clear(const RowSpan& span, GridCell from, Avoid avoid) const;
   /// Whether the map leaves the step to neighbour k open, whatever the room there.
   [[nodiscard]] bool map_edge_open(GridCell cell, std::size_t k) const;
   /// From the cell's centre to the nearest blocked cell; m, no more than the reach that the robot's size and
@@ -114,12 +126,14 @@ class PlanningGrid {
 
   PlannerSettings settings_;
   RobotSettings robot_;
+  RobotOutline outline_;
   Lattice lattice_;
   AssumedFloor assumed_;
   std::int32_t epoch_ = 0;
   std::int64_t version_ = 0;
   CellRect window_;                        ///< cells of the map that the grid covers, whole tiles
-  std::int16_t least_gap_ = 0;             ///< to a blocked or unknown cell, where the footprint fits
+  std::int16_t least_gap_ = 0;             ///< to a blocked or unknown cell, where the inner circle fits
+  std::int16_t roomy_gap_ = 0;             ///< where it fits whatever its heading
   std::int16_t least_step_gap_ = 0;        ///< to a cell at a step, where the wheels fit
   std::vector<std::uint8_t> gap_weights_;  ///< weight of each squared gap to an obstacle
   std::vector<std::int64_t> tile_versions_;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/known_line.hpp"
+#include "planner/clear_way.hpp"
 
 namespace floornav {
 namespace {
@@ -36,12 +36,19 @@ std::vector<GridPoint> arc(GridPoint before, GridPoint corner, GridPoint after, 
   return points;
 }
 
-bool has_room(const PlanningGrid& grid, const std::vector<GridPoint>& points, bool known) {
+/// For the lines of a curve; that before it is where the robot comes from.
+bool has_room(const PlanningGrid& grid, GridPoint before, const std::vector<GridPoint>& points,
+              GridPoint after, bool known) {
+  const Avoid avoid = known ? Avoid::kBlockedAndUnknown : Avoid::kBlocked;
+  const auto heading = [](GridPoint a, GridPoint b) { return std::atan2(b.y - a.y, b.x - a.x); };
+  double heading_rad = heading(before, points.front());
   for (std::size_t i = 1; i < points.size(); ++i) {
-    if (!line_open(grid.search_grid(), points[i - 1], points[i])) return false;
-    if (known && known_free_part(grid, points[i - 1], points[i]) < 1.0) return false;
+    const GridPoint a = points[i - 1], b = points[i];
+    if (!line_clear(grid, a, b) || !turn_clear(grid, a, heading_rad, heading(a, b), avoid)) return false;
+    if (known && known_free_part(grid, a, b) < 1.0) return false;
+    heading_rad = heading(a, b);
   }
-  return true;
+  return turn_clear(grid, points.back(), heading_rad, heading(points.back(), after), avoid);
 }
 
 }  // namespace
@@ -60,7 +67,7 @@ std::vector<GridPoint> rounded(const PlanningGrid& grid, const std::vector<GridP
     std::vector<GridPoint> curve{b};
     for (; std::abs(turn_rad) >= kLeastTurn_rad && cut >= kLeastCut_cells; cut *= 0.5) {
       auto tried = arc(a, b, c, cut, turn_rad);
-      if (!has_room(grid, tried, known)) continue;
+      if (!has_room(grid, a, tried, c, known)) continue;
       curve = std::move(tried);
       break;
     }

@@ -5,13 +5,17 @@
 #include <limits>
 #include <numbers>
 
-#include "planner/known_line.hpp"
+#include "planner/clear_way.hpp"
 
 namespace floornav {
 namespace {
 
 GridPoint centre(GridCell cell) {
   return {static_cast<double>(cell.x), static_cast<double>(cell.y)};
+}
+
+double heading_between(GridPoint a, GridPoint b) {
+  return std::atan2(b.y - a.y, b.x - a.x);
 }
 
 double distance_to_line(GridPoint p, GridPoint a, GridPoint b) {
@@ -33,14 +37,20 @@ class Joiner {
     }
   }
 
-  [[nodiscard]] bool may_join(std::size_t from, std::size_t to) const {
+  /// `before` and `after`: where the robot heads before and behind the line.
+  [[nodiscard]] bool may_join(std::size_t from, std::size_t to, double before, double after) const {
     constexpr double kRounding = 1.0 + 1e-3;
     const GridPoint a = centre(path_[from]), b = centre(path_[to]);
     const std::size_t known = known_[to + 1] - known_[from];
     if (known != 0 && known != to - from + 1) return false;
-    return line_open(grid_.search_grid(), a, b) &&
+    return line_clear(grid_, a, b) &&
            line_cost(grid_.search_grid(), a, b) <= (cost_[to] - cost_[from]) * kRounding &&
-           (known == 0 || known_free_part(grid_, a, b) == 1.0);
+           (known == 0 || known_free_part(grid_, a, b) == 1.0) &&
+           turn_clear(grid_, a, before, heading_between(a, b), Avoid::kBlocked) &&
+           turn_clear(grid_, b, heading_between(a, b), after, Avoid::kBlocked);
+  }
+  [[nodiscard]] double heading(std::size_t from, std::size_t to) const {
+    return heading_between(centre(path_[from]), centre(path_[to]));
   }
 
  private:
@@ -61,16 +71,28 @@ Route moved(const Route& route, CellIndex origin) {
   return result;
 }
 
-std::vector<GridPoint> shorten(const PlanningGrid& grid, const std::vector<GridCell>& path) {
+std::vector<GridPoint> shorten(const PlanningGrid& grid, const std::vector<GridCell>& path,
+                               double heading_rad) {
   const Joiner joiner(grid, path);
   std::vector<std::size_t> corners{0};  // places in the path
-  for (std::size_t to = 2; to < path.size(); ++to)
-    if (!joiner.may_join(corners.back(), to)) corners.push_back(to - 1);
+  const auto before = [&](std::size_t i) {
+    return i == 0 ? heading_rad : joiner.heading(corners[i - 1], corners[i]);
+  };
+  const auto on = [&](std::size_t from, std::size_t to, std::size_t next) {
+    return next < path.size() ? joiner.heading(to, next) : joiner.heading(from, to);
+  };
+  for (std::size_t to = 2; to < path.size(); ++to) {
+    const std::size_t from = corners.back();
+    if (!joiner.may_join(from, to, before(corners.size() - 1), on(from, to, to + 1)))
+      corners.push_back(to - 1);
+  }
   if (path.size() > 1) corners.push_back(path.size() - 1);
   // A line that failed on its way may yet reach further: leave out single corners as long as that is
   // possible.
   for (std::size_t i = 1; i + 1 < corners.size();) {
-    if (joiner.may_join(corners[i - 1], corners[i + 1])) {
+    const std::size_t next = i + 2 < corners.size() ? corners[i + 2] : path.size();
+    if (joiner.may_join(corners[i - 1], corners[i + 1], before(i - 1),
+                        on(corners[i - 1], corners[i + 1], next))) {
       corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(i));
       i = std::max<std::size_t>(i - 1, 1);
     } else {
@@ -82,9 +104,15 @@ std::vector<GridPoint> shorten(const PlanningGrid& grid, const std::vector<GridC
   return points;
 }
 
-bool route_open(const SearchGrid& grid, const Route& route) {
-  for (std::size_t i = route.way_out + 1; i < route.corners.size(); ++i)
-    if (!line_open(grid, route.corners[i - 1], route.corners[i])) return false;
+bool route_open(const PlanningGrid& grid, const Route& route, double heading_rad) {
+  for (std::size_t i = route.way_out + 1; i < route.corners.size(); ++i) {
+    const GridPoint a = route.corners[i - 1], b = route.corners[i];
+    if (!line_clear(grid, a, b)) return false;
+    if (a == b) continue;
+    const double next_rad = heading_between(a, b);
+    if (!turn_clear(grid, a, heading_rad, next_rad, Avoid::kBlocked)) return false;
+    heading_rad = next_rad;
+  }
   return true;
 }
 

@@ -21,12 +21,15 @@ struct Route {
 /// The same route on a grid with another origin.
 Route moved(const Route& route, CellIndex origin);
 
-/// Leaves out cells of a path between which the straight line is open and costs no more than the path does. A
-/// stretch over known free floor stays on it, and does not merge with one over unknown floor.
-std::vector<GridPoint> shorten(const PlanningGrid& grid, const std::vector<GridCell>& path);
+/// Leaves out cells of a path between which the straight line is clear and costs no more than the path does,
+/// and the turns at its ends are clear, the first from `heading_rad`. A stretch over known free floor stays
+/// on it, and does not merge with one over unknown floor.
+std::vector<GridPoint> shorten(const PlanningGrid& grid, const std::vector<GridCell>& path,
+                               double heading_rad);
 
-/// Every line of the route but those of its way out is open (line_open).
-bool route_open(const SearchGrid& grid, const Route& route);
+/// Every line of the route but those of its way out is clear (line_clear), and so is every turn, the first
+/// from `heading_rad`.
+bool route_open(const PlanningGrid& grid, const Route& route, double heading_rad);
 
 /// What a route costs: its lines but those of its way out (line_cost), and `turn_cost` (in steps) for every
 /// radian of its turns, that from `heading_rad` at its begin included.

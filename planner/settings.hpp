@@ -21,7 +21,8 @@ struct PlannerSettings {
   double point_spacing_m = 0.1;   ///< of the published points
   double creep_speed_mps = 0.1;   ///< along an obstacle
   double map_timeout_ms = 250.0;  ///< without a message of the map the robot stops
-  double evidence_timeout_ms = 400.0;  ///< without new evidence in the map the robot stops
+  double evidence_timeout_ms = 400.0;  ///< without new evidence in the map the robot stops; sooner, after
+                                       ///< 2.5 of its periods, where it comes quicker
   double valid_for_ms = 250.0;         ///< of a published path, from its receipt on
   double pose_timeout_ms = 250.0;      ///< without a pose the robot stops
 };

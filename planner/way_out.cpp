@@ -25,7 +25,7 @@ class Escape {
       open_.pop();
       const GridCell cell = unpack(item);
       if (cost > known_.at(item).cost) continue;
-      if (grid_.passable(cell)) return way_to(cell);
+      if (grid_.passable(cell) && grid_.roomy(cell)) return way_to(cell);
       for (std::size_t k = 0; k < 8; ++k) {
         const std::uint32_t next = cost + (k % 2 == 1 ? kSteps.diagonal : kSteps.straight);
         if (next <= most && may_step(cell, k)) reach({cell.x + kStepX[k], cell.y + kStepY[k]}, next, cell);
@@ -75,7 +75,6 @@ class Escape {
 
 std::optional<std::vector<GridCell>> way_out(const PlanningGrid& grid, GridCell from, double reach_m) {
   if (!grid.search_grid().contains(from) || grid.floor(from) == Floor::kBlocked) return std::nullopt;
-  if (grid.passable(from)) return std::vector<GridCell>{from};
   return Escape(grid).find(from, static_cast<std::uint32_t>(reach_m / grid.pitch_m() * kSteps.straight));
 }
 

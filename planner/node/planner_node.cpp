@@ -1,5 +1,6 @@
 #include "planner/node/planner_node.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,6 +17,11 @@ constexpr std::int64_t kMaxPoseDisorder_us = 1'000'000;
 /// Something free must have been seen this near before the robot moves.
 constexpr double kSurroundings_m = 2.5;
 /// What the expansions between two looks at the budget cost, on a machine of today.
+constexpr int kTicksBetweenPaths = 4;
+/// Evidence is late after that many of its periods, and never sooner than this.
+constexpr double kLatePeriods = 2.5;
+constexpr double kSoonest_ms = 200.0;
+constexpr double kSmoothing = 0.2;
 constexpr std::int64_t kWorkBetweenInterrupts_ns = 70 * AStar::kExpansionsBetweenInterrupts;
 
 std::chrono::duration<double, std::milli> milliseconds(double ms) {
@@ -55,12 +61,28 @@ void PlannerNode::accept_map(const grid_map_t& message, Micros now) {
   const bool started_before = map_.started();
   const GridMapReceiver::Change change = map_.apply(message);
   map_heard_ = now;
-  if (!started_before || change.restarted || map_.header().utime_us != utime_before_us) evidence_heard_ = now;
+  if (!started_before || change.restarted) evidence_period_ms_.reset();
+  if (!started_before || change.restarted || map_.header().utime_us != utime_before_us) hear_evidence(now);
   if (!change.tiles.empty() || change.restarted) inputs_changed_ = true;
   if (!change.restarted) return;
   surroundings_seen_ = false;
   plan_.reset();
   planner_.forget();
+}
+
+void PlannerNode::hear_evidence(Micros now) {
+  const double since_ms = std::chrono::duration<double, std::milli>(now - evidence_heard_).count();
+  const bool in_time = evidence_heard_ != Micros{0} && since_ms <= settings_.evidence_timeout_ms;
+  if (in_time && since_ms > 0) {
+    const double period_ms = evidence_period_ms_.value_or(settings_.evidence_timeout_ms / kLatePeriods);
+    evidence_period_ms_ = period_ms + kSmoothing * (since_ms - period_ms);
+  }
+  evidence_heard_ = now;
+}
+
+std::chrono::duration<double, std::milli> PlannerNode::evidence_timeout() const {
+  const double late_ms = kLatePeriods * evidence_period_ms_.value_or(settings_.evidence_timeout_ms);
+  return milliseconds(std::min(std::max(late_ms, kSoonest_ms), settings_.evidence_timeout_ms));
 }
 
 void PlannerNode::accept_pose(const pose_t& message, Micros now) {
@@ -78,8 +100,9 @@ void PlannerNode::accept_pose(const pose_t& message, Micros now) {
   inputs_changed_ = true;
 }
 
-void PlannerNode::tick(Micros, Outbox&) {
-  due_ = true;
+void PlannerNode::tick(Micros now, Outbox&) {
+  ticks_ = (ticks_ + 1) % kTicksBetweenPaths;
+  due_ = due_ || ticks_ == 0 || (driving_ && stale(now));
 }
 
 bool PlannerNode::step(Micros now, Budget& budget, Outbox& out) {
@@ -120,7 +143,7 @@ std::optional<path_t> PlannerNode::stale(Micros now) {
   if (!map_heard_) return stop_message(path_t::STALE_MAP, "no map was received yet");
   if (now - *map_heard_ > milliseconds(settings_.map_timeout_ms))
     return stop_message(path_t::STALE_MAP, "the mapper is silent");
-  if (now - evidence_heard_ > milliseconds(settings_.evidence_timeout_ms))
+  if (now - evidence_heard_ > evidence_timeout())
     return stop_message(path_t::STALE_MAP, "nothing new was seen for too long");
   if (!pose_heard_) return stop_message(path_t::STALE_POSE, "no pose was received yet");
   if (now - *pose_heard_ > milliseconds(settings_.pose_timeout_ms))
@@ -167,6 +190,7 @@ path_t PlannerNode::plan(Budget& budget) {
 }
 
 void PlannerNode::publish(path_t message, Outbox& out) {
+  driving_ = !message.points.empty();
   message.utime = pose_utime_us_;
   message.goal_id = goal_.id();
   message.map_epoch = map_.map().epoch;

@@ -16,8 +16,8 @@
 namespace floornav {
 
 /// GRID_MAP, POSE and GOAL in, PATH out: every 80 ms, and at once when a goal comes or goes, the way ahead is
-/// shut or the robot has left it. A stop while the map or the pose is stale, and after a start or a jump of
-/// the pose until something around the robot was seen.
+/// shut or the robot has left it. A stop within 20 ms of the moment when the map or the pose has become
+/// stale, and after a start or a jump of the pose until something around the robot was seen.
 class PlannerNode final : public Node {
  public:
   PlannerNode(const PlannerSettings& settings, const RobotSettings& robot);
@@ -27,7 +27,7 @@ class PlannerNode final : public Node {
   void subscribe(Inbox& inbox) override;
   bool step(Micros now, Budget& budget, Outbox& out) override;
   void tick(Micros now, Outbox& out) override;
-  [[nodiscard]] Micros tick_period() const override { return std::chrono::milliseconds(80); }
+  [[nodiscard]] Micros tick_period() const override { return std::chrono::milliseconds(20); }
   [[nodiscard]] std::optional<Micros> deadline() const override { return std::chrono::milliseconds(60); }
   void stop(Micros now, Outbox& out) override;
   void report(health_t& health) const override;
@@ -39,6 +39,8 @@ class PlannerNode final : public Node {
   [[nodiscard]] path_t next_path(Micros now, Budget& budget);
   [[nodiscard]] path_t plan(Budget& budget);
   [[nodiscard]] std::optional<path_t> stale(Micros now);
+  void hear_evidence(Micros now);
+  [[nodiscard]] std::chrono::duration<double, std::milli> evidence_timeout() const;
   [[nodiscard]] bool surroundings_seen();
   void publish(path_t message, Outbox& out);
 
@@ -52,9 +54,12 @@ class PlannerNode final : public Node {
   std::int64_t pose_utime_us_ = 0;
   std::optional<Micros> pose_heard_;
   std::optional<Micros> map_heard_;
-  Micros evidence_heard_{0};        ///< when the map's utime last changed
-  bool surroundings_seen_ = false;  ///< in this epoch of the map
-  bool due_ = false;                ///< a path is due by the tick
+  Micros evidence_heard_{0};                  ///< when the map's utime last changed
+  std::optional<double> evidence_period_ms_;  ///< between such changes, smoothed
+  bool surroundings_seen_ = false;            ///< in this epoch of the map
+  int ticks_ = 0;                             ///< since the last path that was due
+  bool driving_ = false;                      ///< the last path had points
+  bool due_ = false;                          ///< a path is due by the tick
   bool goal_changed_ = false;
   bool inputs_changed_ = false;  ///< map or pose, since the last look
 

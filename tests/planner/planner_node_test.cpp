@@ -106,7 +106,7 @@ class Bench {
   UnlimitedBudget budget_;
   PlannerNode node_;
   Micros now_{0};
-  Micros next_tick_{80ms};
+  Micros next_tick_{20ms};
   std::int64_t goal_seq_ = 0, map_seq_ = 0, mapper_session_ = 5;
   bool evidence_stopped_ = false;
 };
@@ -236,6 +236,30 @@ TEST(PlannerNode, StopsWhenTheMapsEvidenceGrowsOldThoughTheMapperSpeaks) {
   }
   bench.pass(80ms);
   EXPECT_EQ(bench.last().status, path_t::STALE_MAP);
+}
+
+TEST(PlannerNode, StopsAQuarterSecondAfterTheLastEvidenceWhereThatCameTenTimesASecond) {
+  Bench bench;
+  set_out(bench);
+  for (int i = 0; i < 30; ++i) {
+    bench.pass(50ms);
+    bench.send_pose(2, 3);
+    if (i % 2 == 1) bench.send_map(draw_map(room(), kCell_m), false);
+  }
+  ASSERT_EQ(bench.last().status, path_t::FOLLOWING);
+  bench.stop_evidence();
+  bench.send_map(draw_map(room(), kCell_m), false);  // repeats what was there: one more change of its time
+  bench.paths.clear();
+  Micros until_stop{0};
+  for (; until_stop < 500ms && (bench.paths.empty() || bench.last().status == path_t::FOLLOWING);
+       until_stop += 10ms) {
+    bench.pass(10ms);
+    bench.send_pose(2, 3);
+    bench.send_map(draw_map(room(), kCell_m), false);
+  }
+  EXPECT_EQ(bench.last().status, path_t::STALE_MAP);
+  EXPECT_GE(until_stop, 200ms);
+  EXPECT_LE(until_stop, 290ms);
 }
 
 TEST(PlannerNode, StopsWhenThePoseGrowsOld) {

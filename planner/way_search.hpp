@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/outline_search.hpp"
+#include "planner/planning_grid.hpp"
+#include "planner/search/grid_search.hpp"
+
+namespace floornav {
+
+/// The cheapest way over a planning grid for the robot that it was made for, whether its footprint is a
+/// circle or a polygon.
+class WaySearch {
+ public:
+  /// As AStar::search. `heading_rad`: that of a robot that is no circle.
+  SearchOutcome search(const PlanningGrid& grid, GridCell start, double heading_rad, GridCell goal,
+                       const Interrupt& interrupt);
+  /// The shortest way, much quicker; false where none was found in a few milliseconds. Of a robot that is no
+  /// circle: none.
+  bool shortest(const PlanningGrid& grid, GridCell start, GridCell goal);
+
+  /// Of the last search, to its goal. Replaces what `path` holds.
+  void path(std::vector<GridCell>& path) const;
+  /// Of the last search, after kNoPath: whether a way leads to the cell, and that way.
+  [[nodiscard]] bool reached(GridCell cell) const;
+  void path_to(GridCell cell, std::vector<GridCell>& path) const;
+  /// Of the last search, after kNoPath: the outline cannot be turned to any free neighbour.
+  [[nodiscard]] bool stuck_at_start() const { return polygon_ && outline_search_.expanded() == 0; }
+
+ private:
+  GridSearch grid_search_;
+  OutlineSearch outline_search_;
+  bool polygon_ = false;
+  GridCell goal_;
+};
+
+}  // namespace floornav
