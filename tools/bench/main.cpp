@@ -5,6 +5,7 @@
 
 #include "tools/bench/driver_command.hpp"
 #include "tools/bench/figure_command.hpp"
+#include "tools/bench/mapping_command.hpp"
 #include "tools/bench/outliers_command.hpp"
 #include "tools/bench/perception_command.hpp"
 #include "tools/bench/planner_command.hpp"
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
   try {
     floornav::add_driver_command(app);
     floornav::add_figure_command(app);
+    floornav::add_mapping_command(app);
     floornav::add_outliers_command(app);
     floornav::add_perception_command(app);
     floornav::add_planner_command(app);

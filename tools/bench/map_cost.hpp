@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "perception/evidence.hpp"
+
+namespace floornav {
+
+/// What the surfels of VGA frames cost the mapper, in processor time of one core.
+struct FuseCost {
+  double cells = 0;           ///< of a frame, mean
+  double fuse_median_ms = 0;  ///< alignment and fusion
+  double fuse_p99_ms = 0;
+  double refresh_median_ms = 0;  ///< judging what changed: states, edges
+  double refresh_p99_ms = 0;
+};
+
+/// Updates of a robot that drives to and fro on one lane of a map of some size.
+struct MapSizeCost {
+  double area_m2 = 0;  ///< seen
+  double update_median_ms = 0;
+  double update_mean_ms = 0;
+  double bytes_per_m2 = 0;  ///< of the mapper's whole state
+};
+
+/// The evidence of a Kinect at 640 x 480 on a slow drive over the bench's floor, true poses.
+std::vector<FloorEvidence> kinect_evidence(int frames);
+
+FuseCost measure_fuse(const std::vector<FloorEvidence>& frames, int repeats);
+
+/// The same drive on maps of these areas, m2, in rising order: the rest of the map is floor seen before.
+std::vector<MapSizeCost> measure_map_sizes(const std::vector<FloorEvidence>& frames,
+                                           const std::vector<double>& areas_m2);
+
+}  // namespace floornav
