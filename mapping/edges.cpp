@@ -32,17 +32,23 @@ bool StepRule::open(const Surface& from, const Surface& to, std::size_t k) const
 }
 
 void open_steps(MapTile& tile, const StepRule& rule) {
+  tile.steps_open.fill(0);
+  const auto join = [&](const VertexRef& from, std::size_t k) {
+    const VertexRef to = from.neighbour(k);
+    if (!to || !to.vertex().is(Vertex::kDrivable) ||
+        !rule.open(from.vertex().surface, to.vertex().surface, k))
+      return;
+    tile.steps_open[from.index()] |= bit(k);
+    if (to.tile == &tile) tile.steps_open[to.index()] |= bit(k + 4);
+  };
   for (std::int32_t y = 0; y < MapTile::kSide; ++y) {
     for (std::int32_t x = 0; x < MapTile::kSide; ++x) {
       const VertexRef from{&tile, x, y};
-      std::uint8_t mask = 0;
-      for (std::size_t k = 0; k < 8 && from.vertex().is(Vertex::kDrivable); k += 2) {
-        const VertexRef to = from.neighbour(k);
-        if (to && to.vertex().is(Vertex::kDrivable) &&
-            rule.open(from.vertex().surface, to.vertex().surface, k))
-          mask |= bit(k);
-      }
-      tile.steps_open[from.index()] = mask;
+      if (!from.vertex().is(Vertex::kDrivable)) continue;
+      join(from, 0);
+      join(from, 2);
+      if (x == 0) join(from, 4);
+      if (y == 0) join(from, 6);
     }
   }
 }

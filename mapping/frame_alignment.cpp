@@ -29,6 +29,7 @@ std::vector<CommonCell> common_cells(const FloorEvidence& frame, const MapTiles&
   constexpr float kViewVar_m2 = 1e-5F;
   const Eigen::Vector2d body_m = frame.T_world_body.translation().head<2>();
   std::vector<CommonCell> common;
+  common.reserve(frame.cells.size());
   for (const CellEvidence& cell : frame.cells) {
     if (cell.points < Level::kTrusted || cell.surfel < 0 || !EvidenceReader::is_valid(cell, frame)) continue;
     if (std::abs(frame.surfels[static_cast<std::size_t>(cell.surfel)].normal.z()) < kLeastUpright) continue;
@@ -45,19 +46,44 @@ std::vector<CommonCell> common_cells(const FloorEvidence& frame, const MapTiles&
   return common;
 }
 
+/// Normal equations of lift and rises, summed cell by cell.
+struct NormalSums {
+  double one = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;  ///< the matrix' upper half
+  double z = 0, xz = 0, yz = 0;                          ///< right-hand side
+
+  void add(const CommonCell& cell, double weight) {
+    const double wx = weight * cell.place_m.x();
+    const double wy = weight * cell.place_m.y();
+    const double wz = weight * cell.above_map_m;
+    one += weight;
+    x += wx;
+    y += wy;
+    xx += wx * cell.place_m.x();
+    xy += wx * cell.place_m.y();
+    yy += wy * cell.place_m.y();
+    z += wz;
+    xz += wz * cell.place_m.x();
+    yz += wz * cell.place_m.y();
+  }
+  [[nodiscard]] Eigen::Vector3d solve() const {
+    constexpr double kUsual = 0.02;  // m and m/m, 1 sigma of a pose's error
+    Eigen::Matrix3d normal = Eigen::Vector3d::Constant(1 / (kUsual * kUsual)).asDiagonal();
+    normal += (Eigen::Matrix3d() << one, x, y, x, xx, xy, y, xy, yy).finished();
+    return normal.ldlt().solve(Eigen::Vector3d(z, xz, yz));
+  }
+};
+
 /// Lift and rises by least squares, in which a cell whose rest is `scale_m` has a quarter of its weight.
 Eigen::Vector3d fit(const std::vector<CommonCell>& cells, const Eigen::Vector3d& before, double scale_m) {
-  const Eigen::Vector3d usual(0.02, 0.02, 0.02);  // m and m/m, 1 sigma of a pose's error
-  Eigen::Matrix3d normal = usual.cwiseAbs2().cwiseInverse().asDiagonal();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  const double per_square_m2 = 1 / (scale_m * scale_m);
+  NormalSums sums;
   for (const CommonCell& cell : cells) {
-    const Eigen::Vector3d row(1, cell.place_m.x(), cell.place_m.y());
-    const double rest = (cell.above_map_m - row.dot(before)) / scale_m;
-    const double weight = cell.weight / ((1 + rest * rest) * (1 + rest * rest));
-    normal += weight * row * row.transpose();
-    right += weight * cell.above_map_m * row;
+    const double rest_m =
+        cell.above_map_m - before[0] - before[1] * cell.place_m.x() - before[2] * cell.place_m.y();
+    const double damping = 1 + per_square_m2 * rest_m * rest_m;
+    sums.add(cell, cell.weight / (damping * damping));
   }
-  return normal.ldlt().solve(right);
+  return sums.solve();
 }
 
 double median_difference(std::vector<CommonCell>& cells) {

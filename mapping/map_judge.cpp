@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 
 #include "mapping/belief.hpp"
 #include "mapping/floor_seeds.hpp"
@@ -34,7 +35,7 @@ std::uint8_t clearance_of(const Vertex& vertex, float floor_m) {
 }
 
 /// Writes what a vertex that was seen shows. True where it differs from before.
-bool write_seen(GridTile& grid, std::size_t i, const Vertex& vertex, float belief) {
+bool write_seen(GridTile& grid, std::size_t i, const Vertex& vertex, float belief, float slope) {
   const Surface& surface = vertex.surface;
   const float height_m = surface.z_m - grid.origin_z_m;
   bool differs = assign(grid.state[i], vertex.is(Vertex::kFree) ? VertexState::kFree : VertexState::kBlocked);
@@ -42,7 +43,7 @@ bool write_seen(GridTile& grid, std::size_t i, const Vertex& vertex, float belie
   differs |= assign(grid.height[i], quantised<std::int16_t>(height_m, GridTile::kHeightUnit_m));
   differs |=
       assign(grid.sigma[i], quantised<std::int16_t>(std::sqrt(surface.var_m2), GridTile::kHeightUnit_m));
-  differs |= assign(grid.slope[i], quantised<std::uint8_t>(slope_deg(surface), GridTile::kSlopeUnit_deg));
+  differs |= assign(grid.slope[i], quantised<std::uint8_t>(slope, GridTile::kSlopeUnit_deg));
   return differs;
 }
 
@@ -73,33 +74,48 @@ void add_neighbours(std::vector<MapTile*>& work, std::int64_t version) {
 
 MapJudge::MapJudge(const MappingSettings& settings, const RobotSettings& robot)
     : settings_(settings),
-      robot_(robot),
       rule_{static_cast<float>(robot.max_step_m), static_cast<float>(settings.resolution_m)},
       reach_(rule_.max_step_m, rule_.resolution_m, static_cast<float>(robot.max_slope_deg)),
-      floor_(settings.resolution_m) {}
+      floor_(settings.resolution_m),
+      max_rise_(static_cast<float>(std::tan(robot.max_slope_deg * std::numbers::pi / 180))) {}
 
-void MapJudge::summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) const {
+bool MapJudge::summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) const {
   const std::size_t per_vertex = tile.cells.size() / tile.vertices.size();
-  const float pitch_m = rule_.resolution_m / static_cast<float>(cells_per_vertex);
   std::vector<const CellMemory*> cells(per_vertex);
+  bool differs = tile.grid == nullptr;
   for (std::size_t i = 0; i < tile.vertices.size(); ++i) {
     if (!tile.touched[i]) continue;
-    Vertex& vertex = tile.vertices[i];
-    int no_return_frames = 0;
-    vertex.overhead_z_m = std::numeric_limits<float>::quiet_NaN();
-    for (std::size_t c = 0; c < per_vertex; ++c) {
-      cells[c] = &tile.cells[i * per_vertex + c];
-      vertex.overhead_z_m = std::fmin(vertex.overhead_z_m, cells[c]->overhead_z_m());
-      no_return_frames = std::max(no_return_frames, cells[c]->no_return_frames());
-    }
-    const SquareSummary summary = summarise(cells, cells_per_vertex, pitch_m, rule_.max_step_m);
-    const bool gentle = slope_deg(summary.surface) <= static_cast<float>(robot_.max_slope_deg);
-    vertex.surface = summary.surface;
-    vertex.set(Vertex::kSeen, summary.seen);
-    vertex.set(Vertex::kDrivable, summary.seen && gentle && !summary.stepped && !summary.surface.column);
-    vertex.set(Vertex::kNoReturn, !summary.seen && no_return_frames >= settings_.no_return_frames);
+    for (std::size_t c = 0; c < per_vertex; ++c) cells[c] = &tile.cells[i * per_vertex + c];
+    differs |= take_summary(cells, cells_per_vertex, tile.vertices[i]);
+    if (tile.grid != nullptr) tile.grid->seen_us[i] = tile.vertices[i].seen_us;
   }
   tile.touched.reset();
+  return differs;
+}
+
+bool MapJudge::take_summary(std::span<const CellMemory* const> cells, std::int32_t side,
+                            Vertex& vertex) const {
+  const Vertex before = vertex;
+  int no_return_frames = 0;
+  float overhead_z_m = std::numeric_limits<float>::quiet_NaN();
+  for (const CellMemory* cell : cells) {
+    overhead_z_m = std::fmin(overhead_z_m, cell->overhead_z_m());
+    no_return_frames = std::max(no_return_frames, cell->no_return_frames());
+  }
+  const float pitch_m = rule_.resolution_m / static_cast<float>(side);
+  const SquareSummary summary = summarise(cells, side, pitch_m, rule_.max_step_m);
+  const bool gentle = std::hypot(summary.surface.gradient_x, summary.surface.gradient_y) <= max_rise_;
+  vertex.set(Vertex::kSeen, summary.seen);
+  vertex.set(Vertex::kDrivable, summary.seen && gentle && !summary.stepped && !summary.surface.column);
+  vertex.set(Vertex::kNoReturn, !summary.seen && no_return_frames >= settings_.no_return_frames);
+  const bool same_overhead =
+      overhead_z_m == before.overhead_z_m || (std::isnan(overhead_z_m) && std::isnan(before.overhead_z_m));
+  vertex.overhead_z_m = overhead_z_m;
+  if (vertex.flags == before.flags && same_overhead &&
+      !(summary.seen && differs_noticeably(summary.surface, before.surface)))
+    return false;
+  vertex.surface = summary.surface;
+  return true;
 }
 
 bool MapJudge::judge_vertex(const VertexRef& place, float floor_m) {
@@ -113,10 +129,11 @@ bool MapJudge::judge_vertex(const VertexRef& place, float floor_m) {
     const bool drop = vertex.is(Vertex::kNoReturn) && FloorReach::beside_floor(place);
     return write_unseen(grid, i, drop, floor_m) || differs;
   }
-  const float belief_here = belief(vertex.surface.z_m - floor_m, slope_deg(vertex.surface));
+  const float slope = slope_deg(vertex.surface);
+  const float belief_here = belief(vertex.surface.z_m - floor_m, slope);
   const bool believed = belief_here >= static_cast<float>(settings_.min_belief);
   vertex.set(Vertex::kFree, believed && vertex.is(Vertex::kDrivable) && !vertex.is(Vertex::kCutOff));
-  return write_seen(grid, i, vertex, belief_here) || differs;
+  return write_seen(grid, i, vertex, belief_here, slope) || differs;
 }
 
 bool MapJudge::judge(MapTile& tile, const Pose& T_world_body) {
@@ -152,7 +169,7 @@ std::vector<CellIndex> MapJudge::refresh(const std::vector<CellIndex>& dirty, co
   std::vector<MapTile*> work;
   for (const CellIndex index : dirty) {
     MapTile* const tile = tiles.find(index);
-    summarise_touched(*tile, tiles.cells_per_vertex());
+    if (!summarise_touched(*tile, tiles.cells_per_vertex())) continue;
     tile->judged = version;
     work.push_back(tile);
   }

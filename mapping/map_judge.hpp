@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mapping/edges.hpp"
@@ -29,16 +30,18 @@ class MapJudge {
   void clear() { floor_.clear(); }
 
  private:
-  void summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) const;
+  /// Both: false where nothing that matters differs from before.
+  bool summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) const;
+  bool take_summary(std::span<const CellMemory* const> cells, std::int32_t side, Vertex& vertex) const;
   bool judge(MapTile& tile, const Pose& T_world_body);
   bool judge_vertex(const VertexRef& place, float floor_m);
   [[nodiscard]] bool publish_edges(MapTile& tile) const;
 
   MappingSettings settings_;
-  RobotSettings robot_;
   StepRule rule_;
   FloorReach reach_;
   FloorHeight floor_;
+  float max_rise_;  ///< rise per metre of the steepest floor that the robot drives
   std::vector<float> floor_heights_m_;
 };
 

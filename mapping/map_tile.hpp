@@ -51,6 +51,8 @@ struct VertexRef {
     constexpr std::array<std::int32_t, 9> kTowards{5, 6, 7, 4, -1, 0, 3, 2, 1};
     const std::int32_t to_x = x + dx;
     const std::int32_t to_y = y + dy;
+    const auto inside = [](std::int32_t at) { return at >= 0 && at < MapTile::kSide; };
+    if (inside(to_x) && inside(to_y)) return {tile, to_x, to_y};
     const std::int32_t tile_x = block_of(to_x, MapTile::kSide);
     const std::int32_t tile_y = block_of(to_y, MapTile::kSide);
     const std::int32_t direction = 3 * (tile_y + 1) + tile_x + 1;

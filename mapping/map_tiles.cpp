@@ -3,13 +3,16 @@
 namespace floornav {
 
 MapTile* MapTiles::find(CellIndex tile) const {
+  if (last_found_ != nullptr && last_found_->index == tile) return last_found_;
   const auto it = tiles_.find(tile);
-  return it == tiles_.end() ? nullptr : it->second.get();
+  if (it == tiles_.end()) return nullptr;
+  last_found_ = it->second.get();
+  return last_found_;
 }
 
 MapTile& MapTiles::make(CellIndex tile) {
+  if (MapTile* const known = find(tile)) return *known;
   auto& slot = tiles_[tile];
-  if (slot) return *slot;
   slot = std::make_unique<MapTile>();
   slot->index = tile;
   const auto per_vertex =

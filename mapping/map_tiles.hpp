@@ -19,7 +19,10 @@ class MapTiles {
 
   [[nodiscard]] MapTile* find(CellIndex tile) const;
   MapTile& make(CellIndex tile);
-  void clear() { tiles_.clear(); }
+  void clear() {
+    last_found_ = nullptr;
+    tiles_.clear();
+  }
 
   [[nodiscard]] CellIndex vertex_of(CellIndex cell) const {
     return {block_of(cell.ix, cells_per_vertex_), block_of(cell.iy, cells_per_vertex_)};
@@ -38,6 +41,7 @@ class MapTiles {
  private:
   std::int32_t cells_per_vertex_ = 1;
   std::unordered_map<CellIndex, std::unique_ptr<MapTile>> tiles_;
+  mutable MapTile* last_found_ = nullptr;  ///< neighbouring cells ask for the same tile
 };
 
 }  // namespace floornav

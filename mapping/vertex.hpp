@@ -34,6 +34,10 @@ struct Vertex {
 /// Steepest rise of a surface, degrees.
 float slope_deg(const Surface& surface);
 
+/// Whether a surface tells anything new to somebody who knows another: half a millimetre, half a degree, half
+/// as much again or less of uncertainty. What is less is noise of the fusion, and is neither judged nor sent.
+bool differs_noticeably(const Surface& surface, const Surface& known);
+
 /// What decides in a square of lattice cells.
 struct SquareSummary {
   bool seen = false;

@@ -26,7 +26,7 @@ void WorldMemory::sort_by_cell(const FloorEvidence& evidence, Taken& taken) {
   const auto in_range = [&](CellIndex cell) {
     const double x_m = evidence.lattice.center_of(cell.ix) - body.x();
     const double y_m = evidence.lattice.center_of(cell.iy) - body.y();
-    return std::hypot(x_m, y_m) <= settings_.max_range_m;
+    return x_m * x_m + y_m * y_m <= settings_.max_range_m * settings_.max_range_m;
   };
   order_.clear();
   for (std::uint32_t i = 0; i < evidence.cells.size(); ++i) {

@@ -114,7 +114,7 @@ void run(const CommandOptions& options) {
   Figures figures;
   const std::vector<FloorEvidence> frames = kinect_evidence(options.frames);
   figures.fuse = measure_fuse(frames, kRepeats);
-  figures.sizes = measure_map_sizes(frames, {kSmall_m2, options.large_m2});
+  if (options.large_m2 > 0) figures.sizes = measure_map_sizes(frames, {kSmall_m2, options.large_m2});
   if (options.accuracy.worlds > 0) figures.accuracy = measure_map_accuracy(options.accuracy, pool);
   if (options.json) {
     fmt::print("{}\n", json_of(figures).dump());
@@ -142,8 +142,8 @@ void add_mapping_command(CLI::App& app) {
   command->add_option("--angle-noise", o->accuracy.pose_noise.angle_deg, "deg, 1 sigma of each axis")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
-  command->add_option("--large", o->large_m2, "m2 of the large map")
-      ->check(CLI::Range(100.0, 1e7))
+  command->add_option("--large", o->large_m2, "m2 of the large map; 0: no maps of other sizes")
+      ->check(CLI::Range(0.0, 1e7))
       ->capture_default_str();
   command
       ->add_option("--seed", o->accuracy.seed, "Of the worlds and the noise; tune on others than you print")

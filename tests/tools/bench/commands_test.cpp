@@ -36,6 +36,22 @@ TEST(Table1Command, PrintsTheRowsThatBenchmarksReadTheSameOnAnyNumberOfThreads) 
   EXPECT_EQ(run_program(alone).out, once.out);
 }
 
+TEST(MappingCommand, PrintsEveryGoalTheSameOnAnyNumberOfThreads) {
+  const std::vector<std::string> words{"floornav-bench", "mapping", "--worlds", "2", "--frames", "2",
+                                       "--large",        "0",       "--json"};
+  const Outcome once = run_program(words);
+  ASSERT_EQ(once.exit_code, 0) << once.err;
+  auto result = nlohmann::json::parse(once.out);
+  EXPECT_GT(result["fuse_median_ms"].get<double>(), 0.0);
+  EXPECT_LE(result["drivable_blocked"].get<double>(), 0.02);
+  EXPECT_LE(result["height_shape_rms_cm"].get<double>(), 0.3);
+  std::vector<std::string> alone = words;
+  alone.insert(alone.end(), {"--threads", "1"});
+  const auto again = nlohmann::json::parse(run_program(alone).out);
+  for (const char* key : {"drivable_blocked", "undrivable_free", "unseen", "height_rms_cm"})
+    EXPECT_EQ(again[key], result[key]) << key;
+}
+
 TEST(FigureCommand, WritesItsPictureAndRefusesOtherNumbers) {
   const TemporaryFolder folder;
   const Outcome drawn = run_program({"floornav-bench", "figure", "2", "--out", folder.path().string()});
