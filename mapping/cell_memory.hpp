@@ -54,6 +54,11 @@ struct FusionLimits {
 /// highest one that the robot would hit (things on the floor, table tops). Those between are not kept.
 class CellMemory {
  public:
+  CellMemory() = default;
+  /// As it was remembered before.
+  CellMemory(const Level& lower, const Level& upper, float overhead_z_m, std::uint8_t no_return_frames)
+      : lower_(lower), upper_(upper), overhead_z_m_(overhead_z_m), no_return_frames_(no_return_frames) {}
+
   /// Fuses one frame. A sighting supports the level that it fits (Kalman filter by both variances, so that
   /// nearer views win) or makes a new one; a few points alone above a floor that is already trusted decide
   /// only when a third frame has seen them, since what depth edges throw there is seen once or twice. A level

@@ -28,6 +28,9 @@ class FloorHeight {
   /// Takes the medians of the tile's blocks anew.
   void update(MapTile& tile);
   void clear() { blocks_.clear(); }
+  [[nodiscard]] std::int64_t memory_bytes() const {
+    return static_cast<std::int64_t>(blocks_.size() * (sizeof(*blocks_.begin()) + 2 * sizeof(void*)));
+  }
 
   /// For every vertex of the tile in order, m. `far_from_floor_m`: where no floor is near.
   void heights_of(const MapTile& tile, float far_from_floor_m, std::vector<float>& heights_m) const;

@@ -35,7 +35,14 @@ struct GridTile {
   std::array<std::uint8_t, kVertices> slope{};      ///< kSlopeUnit_deg
   std::array<std::uint8_t, kVertices> clearance{};  ///< kClearanceUnit_m of free height, kNothingAbove: open
   std::array<std::uint8_t, kVertices> edges{};      ///< bit k: the edge to neighbour k is open, eq. (2)
-  std::array<std::int64_t, kVertices> seen_us{};    ///< utime of the last evidence, 0: never
+  std::array<std::uint32_t, kVertices> seen{};      ///< seen_at() of the last evidence, 0: never
+
+  /// A time in units of 0.1 s that starts again every 13 years: only differences tell.
+  static constexpr std::int64_t kSeenUnit_us = 100'000;
+  static constexpr std::uint32_t seen_at(std::int64_t utime_us) {
+    const auto time = static_cast<std::uint32_t>(utime_us / kSeenUnit_us);
+    return time == 0 ? 1 : time;
+  }
 
   static constexpr std::int32_t index_of(CellIndex cell) {
     return (cell.iy - block_of(cell.iy, kSide) * kSide) * kSide +

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "mapping/belief.hpp"
 #include "mapping/floor_seeds.hpp"
@@ -70,6 +71,17 @@ void add_neighbours(std::vector<MapTile*>& work, std::int64_t version) {
   }
 }
 
+/// The way by which the robot came to a tile's floor may rest.
+void add_known_floor(MapTile& tile, std::vector<VertexRef>& seeds) {
+  if (!std::exchange(tile.floor_is_known, false)) return;
+  for (std::int32_t y = 0; y < MapTile::kSide; ++y) {
+    for (std::int32_t x = 0; x < MapTile::kSide; ++x) {
+      const VertexRef place{&tile, x, y};
+      if (place.vertex().is(Vertex::kFloor) && place.vertex().is(Vertex::kDrivable)) seeds.push_back(place);
+    }
+  }
+}
+
 }  // namespace
 
 MapJudge::MapJudge(const MappingSettings& settings, const RobotSettings& robot)
@@ -87,7 +99,7 @@ bool MapJudge::summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) c
     if (!tile.touched[i]) continue;
     for (std::size_t c = 0; c < per_vertex; ++c) cells[c] = &tile.cells[i * per_vertex + c];
     differs |= take_summary(cells, cells_per_vertex, tile.vertices[i]);
-    if (tile.grid != nullptr) tile.grid->seen_us[i] = tile.vertices[i].seen_us;
+    if (tile.grid != nullptr) tile.grid->seen[i] = tile.vertices[i].seen;
   }
   tile.touched.reset();
   return differs;
@@ -122,7 +134,7 @@ bool MapJudge::judge_vertex(const VertexRef& place, float floor_m) {
   Vertex& vertex = place.vertex();
   GridTile& grid = *place.tile->grid;
   const std::size_t i = place.index();
-  grid.seen_us[i] = vertex.seen_us;
+  grid.seen[i] = vertex.seen;
   bool differs = assign(grid.clearance[i], clearance_of(vertex, floor_m));
   if (!vertex.is(Vertex::kSeen)) {
     vertex.set(Vertex::kFree, false);
@@ -175,7 +187,9 @@ std::vector<CellIndex> MapJudge::refresh(const std::vector<CellIndex>& dirty, co
   }
   add_neighbours(work, version);
   for (MapTile* tile : work) open_steps(*tile, rule_);
-  reach_.grow(work, floor_seeds(T_world_body, map.lattice(), rule_.max_step_m, tiles), version);
+  std::vector<VertexRef> seeds = floor_seeds(T_world_body, map.lattice(), rule_.max_step_m, tiles);
+  for (MapTile* tile : work) add_known_floor(*tile, seeds);
+  reach_.grow(work, seeds, version);
   reach_.find_cut_off(work, version);
   for (MapTile* tile : work) floor_.update(*tile);
 

@@ -24,6 +24,7 @@ struct MapTile {
   std::array<std::uint8_t, GridTile::kVertices>
       steps_open{};                          ///< bit k as GridTile::edges, even k only: by heights alone
   std::bitset<GridTile::kVertices> touched;  ///< have new evidence since the last refresh
+  bool floor_is_known = false;               ///< woken: Vertex::kFloor is from before and seeds the floor
   bool high_tops = false;                    ///< some cell has had one: CellMemory::has_high_top()
   std::int64_t judged = -1;                  ///< map version at which it was last judged
   GridTile* grid = nullptr;                  ///< what is published of it

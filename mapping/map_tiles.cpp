@@ -1,6 +1,20 @@
 #include "mapping/map_tiles.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
+#include "mapping/tile_codec.hpp"
+
 namespace floornav {
+namespace {
+
+double distance_m(CellIndex tile, const Eigen::Vector2d& place_m, double side_m) {
+  const Eigen::Vector2d low(tile.ix * side_m, tile.iy * side_m);
+  const Eigen::Vector2d high = low + Eigen::Vector2d::Constant(side_m);
+  return (place_m.cwiseMax(low).cwiseMin(high) - place_m).norm();
+}
+
+}  // namespace
 
 MapTile* MapTiles::find(CellIndex tile) const {
   if (last_found_ != nullptr && last_found_->index == tile) return last_found_;
@@ -15,9 +29,7 @@ MapTile& MapTiles::make(CellIndex tile) {
   auto& slot = tiles_[tile];
   slot = std::make_unique<MapTile>();
   slot->index = tile;
-  const auto per_vertex =
-      static_cast<std::size_t>(cells_per_vertex_) * static_cast<std::size_t>(cells_per_vertex_);
-  slot->cells.resize(per_vertex * GridTile::kVertices);
+  slot->cells.resize(cells_per_tile());
   for (std::size_t k = 0; k < 8; ++k) {
     MapTile* const beside = find({tile.ix + kNeighbourX[k], tile.iy + kNeighbourY[k]});
     if (beside == nullptr) continue;
@@ -25,6 +37,83 @@ MapTile& MapTiles::make(CellIndex tile) {
     beside->neighbours[(k + 4) % 8] = slot.get();
   }
   return *slot;
+}
+
+void MapTiles::clear() {
+  last_found_ = nullptr;
+  tiles_.clear();
+  resting_.clear();
+}
+
+MapTile& MapTiles::wake(CellIndex tile) {
+  const std::vector<std::uint8_t> bytes = std::move(resting_.extract(tile).mapped());
+  MapTile& woken = make(tile);
+  unpack(bytes, woken);
+  woken.touched.set();
+  woken.floor_is_known = true;
+  return woken;
+}
+
+void MapTiles::rest_outside(const Eigen::Vector2d& center_m, double radius_m, double resolution_m) {
+  last_found_ = nullptr;
+  std::erase_if(tiles_, [&](const auto& entry) {
+    const MapTile& tile = *entry.second;
+    if (tile.touched.any() || distance_m(tile.index, center_m, resolution_m * MapTile::kSide) <= radius_m)
+      return false;
+    for (std::size_t k = 0; k < 8; ++k)
+      if (tile.neighbours[k] != nullptr) tile.neighbours[k]->neighbours[(k + 4) % 8] = nullptr;
+    resting_[tile.index] = pack(tile);
+    return true;
+  });
+}
+
+std::vector<MapTile*> MapTiles::wake_within(const Eigen::Vector2d& center_m, double radius_m,
+                                            double resolution_m) {
+  std::vector<MapTile*> woken;
+  if (resting_.empty()) return woken;
+  const double side_m = resolution_m * MapTile::kSide;
+  const Lattice lattice{side_m};
+  const CellIndex first = lattice.cell_of(center_m.x() - radius_m, center_m.y() - radius_m);
+  const CellIndex last = lattice.cell_of(center_m.x() + radius_m, center_m.y() + radius_m);
+  for (std::int32_t ix = first.ix; ix <= last.ix; ++ix)
+    for (std::int32_t iy = first.iy; iy <= last.iy; ++iy)
+      if (is_resting({ix, iy}) && distance_m({ix, iy}, center_m, side_m) <= radius_m)
+        woken.push_back(&wake({ix, iy}));
+  return woken;
+}
+
+std::vector<CellIndex> MapTiles::awake() const {
+  std::vector<CellIndex> sorted;
+  for (const auto& [index, tile] : tiles_) sorted.push_back(index);
+  std::ranges::sort(sorted);
+  return sorted;
+}
+
+std::vector<MapTile*> MapTiles::wake_all() {
+  std::vector<CellIndex> sorted;
+  for (const auto& [index, bytes] : resting_) sorted.push_back(index);
+  std::ranges::sort(sorted);
+  std::vector<MapTile*> woken;
+  for (const CellIndex index : sorted) {
+    woken.push_back(&wake(index));
+    woken.back()->floor_is_known = false;
+  }
+  return woken;
+}
+
+std::vector<std::pair<CellIndex, std::vector<std::uint8_t>>> MapTiles::packed() const {
+  std::vector<std::pair<CellIndex, std::vector<std::uint8_t>>> all(resting_.begin(), resting_.end());
+  for (const auto& [index, tile] : tiles_) all.emplace_back(index, pack(*tile));
+  std::ranges::sort(all, {}, [](const auto& entry) { return entry.first; });
+  return all;
+}
+
+void MapTiles::add_resting(CellIndex tile, std::vector<std::uint8_t> bytes) {
+  if (find(tile) != nullptr || is_resting(tile)) throw std::invalid_argument("the same tile twice");
+  MapTile trial;
+  trial.cells.resize(cells_per_tile());
+  unpack(bytes, trial);
+  resting_[tile] = std::move(bytes);
 }
 
 std::size_t MapTiles::slot_of(CellIndex cell) const {
@@ -56,7 +145,9 @@ VertexRef MapTiles::find_vertex(CellIndex vertex) const {
 
 std::int64_t MapTiles::memory_bytes() const {
   std::int64_t sum = 0;
+  constexpr std::size_t kEntry = 64;  // of the hash map
   for (const auto& [index, tile] : tiles_) sum += tile->memory_bytes();
+  for (const auto& [index, bytes] : resting_) sum += static_cast<std::int64_t>(bytes.capacity() + kEntry);
   return sum;
 }
 

@@ -38,6 +38,10 @@ bool TerrainBuilder::summarise_tile(CellIndex index, const MapTiles& tiles, std:
     const std::int32_t ix = (index.ix * TerrainTile::kSide + i % TerrainTile::kSide) * cells_per_height;
     const std::int32_t iy = (index.iy * TerrainTile::kSide + i / TerrainTile::kSide) * cells_per_height;
     cells.clear();
+    const auto rests = [&](std::int32_t x, std::int32_t y) {
+      return tiles.is_resting(GridMap::tile_of(tiles.vertex_of({x, y})));
+    };
+    if (rests(ix, iy) || rests(ix + cells_per_height - 1, iy + cells_per_height - 1)) continue;
     for (std::int32_t c = 0; c < cells_per_height * cells_per_height; ++c)
       cells.push_back(tiles.find_cell({ix + c % cells_per_height, iy + c / cells_per_height}));
     const SquareSummary summary = summarise(cells, cells_per_height, pitch_m, max_step_m);

@@ -22,7 +22,7 @@ struct Vertex {
 
   Surface surface;
   float overhead_z_m = std::numeric_limits<float>::quiet_NaN();  ///< lowest thing above the robot's height
-  std::int64_t seen_us = 0;                                      ///< utime of the last sighting, 0: never
+  std::uint32_t seen = 0;                                        ///< as GridTile::seen
   std::uint8_t flags = 0;
 
   [[nodiscard]] bool is(std::uint8_t flag) const { return (flags & flag) != 0; }

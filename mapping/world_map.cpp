@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 namespace floornav {
 namespace {
@@ -18,10 +20,14 @@ std::int32_t cells_along(double resolution_m, double pitch_m, const char* name) 
   return static_cast<std::int32_t>(cells);
 }
 
+constexpr double kWakeTiles = 2;  ///< beyond the range of evidence: what is judged with it
+constexpr double kRestTiles = 4;
+
 }  // namespace
 
 WorldMap::WorldMap(const MappingSettings& settings, const RobotSettings& robot)
     : alignment_(settings.alignment),
+      max_range_m_(settings.max_range_m),
       memory_(settings, robot),
       judge_(settings, robot),
       grid_(settings.resolution_m),
@@ -42,6 +48,7 @@ void WorldMap::take_lattice(double pitch_m) {
 WorldMemory::Taken WorldMap::integrate(const FloorEvidence& evidence) {
   take_lattice(evidence.lattice.pitch_m);
   if (!evidence.T_world_body.matrix().allFinite()) throw std::invalid_argument("pose that is not finite");
+  wake_around(evidence.T_world_body);
   const HeightError error = find_height_error(evidence, tiles_, alignment_);
   const WorldMemory::Taken taken = memory_.take(corrected(evidence, error), judge_.floor(), tiles_);
   if (evidence.utime_us >= utime_us_) T_world_body_ = evidence.T_world_body;
@@ -57,7 +64,56 @@ std::vector<CellIndex> WorldMap::refresh() {
 
 std::vector<CellIndex> WorldMap::refresh_terrain() {
   terrain_.version = grid_.version;
-  return terrain_builder_.refresh(tiles_, cells_per_height_, max_step_m(), terrain_);
+  std::vector<CellIndex> changed =
+      terrain_builder_.refresh(tiles_, cells_per_height_, max_step_m(), terrain_);
+  tiles_.rest_outside(T_world_body_.translation().head<2>(), max_range_m_ + kRestTiles * tile_side_m(),
+                      grid_.lattice().pitch_m);
+  return changed;
+}
+
+void WorldMap::wake_around(const Pose& T_world_body) {
+  const std::vector<MapTile*> woken =
+      tiles_.wake_within(T_world_body.translation().head<2>(), max_range_m_ + kWakeTiles * tile_side_m(),
+                         grid_.lattice().pitch_m);
+  for (MapTile* tile : woken) memory_.take_woken(*tile);
+}
+
+MapMemory WorldMap::memory() const {
+  return {.pitch_m = pitch_m_,
+          .cells_per_vertex = tiles_.cells_per_vertex(),
+          .utime_us = utime_us_,
+          .T_world_body = T_world_body_,
+          .T_global_local = std::nullopt,
+          .tiles = tiles_.packed()};
+}
+
+void WorldMap::restore(const MapMemory& memory) {
+  MapTiles restored;
+  restored.set_cells_per_vertex(memory.cells_per_vertex);
+  for (const auto& [index, bytes] : memory.tiles) restored.add_resting(index, bytes);
+  if (memory.pitch_m > 0) {
+    take_lattice(memory.pitch_m);
+    if (tiles_.cells_per_vertex() != memory.cells_per_vertex)
+      throw std::invalid_argument("map of resolution " +
+                                  std::to_string(memory.pitch_m * memory.cells_per_vertex) + ", not " +
+                                  std::to_string(grid_.lattice().pitch_m));
+  }
+  start_epoch();
+  tiles_ = std::move(restored);
+  utime_us_ = memory.utime_us;
+  T_world_body_ = memory.T_world_body;
+  for (MapTile* tile : tiles_.wake_all()) memory_.take_woken(*tile);
+  refresh();
+  refresh_terrain();
+}
+
+std::int64_t WorldMap::memory_bytes() const {
+  const auto of_map = [](const auto& map) {
+    using Entry = std::decay_t<decltype(*map.tiles().begin())>;
+    using Tile = typename std::decay_t<decltype(map.tiles())>::mapped_type::element_type;
+    return static_cast<std::int64_t>(map.tiles().size() * (sizeof(Tile) + sizeof(Entry) + sizeof(void*)));
+  };
+  return tiles_.memory_bytes() + of_map(grid_) + of_map(terrain_) + judge_.floor().memory_bytes();
 }
 
 void WorldMap::start_epoch() {

@@ -5,6 +5,7 @@
 
 #include "mapping/grid_map.hpp"
 #include "mapping/map_judge.hpp"
+#include "mapping/map_memory.hpp"
 #include "mapping/map_tiles.hpp"
 #include "mapping/settings.hpp"
 #include "mapping/terrain_builder.hpp"
@@ -25,7 +26,7 @@ namespace floornav {
 /// open edges join to the level ground near the robot.
 ///
 /// The result depends on the evidence and its order alone. The cost of an update follows the tiles with new
-/// evidence.
+/// evidence. What lies farther from the robot than it can see is kept packed until it comes back.
 class WorldMap {
  public:
   WorldMap(const MappingSettings& settings, const RobotSettings& robot);
@@ -38,8 +39,14 @@ class WorldMap {
   /// Judges anew what was touched since the last refresh. Returns the tiles of the grid-map that changed,
   /// sorted.
   std::vector<CellIndex> refresh();
-  /// The same for the terrain.
+  /// The same for the terrain. Now and then: packs what the robot has left behind.
   std::vector<CellIndex> refresh_terrain();
+
+  /// All that is remembered.
+  [[nodiscard]] MapMemory memory() const;
+  /// Begins a new epoch with what was remembered before, judged by this robot. Throws std::invalid_argument,
+  /// and nothing changes, for another lattice or resolution, or bytes that are no tile's.
+  void restore(const MapMemory& memory);
 
   /// Forgets everything, because the pose has jumped. The epoch counts up.
   void start_epoch();
@@ -49,12 +56,16 @@ class WorldMap {
   [[nodiscard]] std::int64_t utime_us() const { return utime_us_; }  ///< of the newest evidence, 0: none yet
   [[nodiscard]] const Pose& T_world_body() const { return T_world_body_; }  ///< of the newest evidence
   [[nodiscard]] float max_step_m() const { return judge_.max_step_m(); }    ///< T of eq. (2)
-  [[nodiscard]] std::int64_t memory_bytes() const { return tiles_.memory_bytes(); }
+  /// Of all that the mapper keeps.
+  [[nodiscard]] std::int64_t memory_bytes() const;
 
  private:
   void take_lattice(double pitch_m);
+  void wake_around(const Pose& T_world_body);
+  [[nodiscard]] double tile_side_m() const { return grid_.lattice().pitch_m * MapTile::kSide; }
 
   AlignmentSettings alignment_;
+  double max_range_m_;
   WorldMemory memory_;
   MapJudge judge_;
   MapTiles tiles_;

@@ -88,13 +88,18 @@ void WorldMemory::take_cell(const FloorEvidence& evidence, Entries entries, cons
   const std::size_t index = GridMap::index_of(vertex);
   touch(*tile, index);
   tile->high_tops = tile->high_tops || memory.has_high_top();
-  if (!sightings_.empty())
-    tile->vertices[index].seen_us = std::max(tile->vertices[index].seen_us, evidence.utime_us);
+  if (!sightings_.empty()) tile->vertices[index].seen = GridTile::seen_at(evidence.utime_us);
 }
 
 void WorldMemory::touch(MapTile& tile, std::size_t vertex) {
   if (tile.touched.none()) touched_.push_back(tile.index);
   tile.touched.set(vertex);
+}
+
+void WorldMemory::take_woken(MapTile& tile) {
+  touched_.push_back(tile.index);
+  tile.high_tops =
+      std::ranges::any_of(tile.cells, [](const CellMemory& cell) { return cell.has_high_top(); });
 }
 
 /// Whether this frame saw a surface about this high in a cell.

@@ -26,6 +26,8 @@ class WorldMemory {
   /// `floor` tells what hangs above the robot.
   Taken take(const FloorEvidence& evidence, const FloorHeight& floor, MapTiles& tiles);
 
+  /// A tile that has rested: all of it is to be judged.
+  void take_woken(MapTile& tile);
   /// Tiles with evidence since the last call, sorted.
   std::vector<CellIndex> take_touched();
   void clear() { touched_.clear(); }

@@ -11,13 +11,20 @@
 namespace floornav {
 namespace {
 
-constexpr std::int64_t kAgeUnit_us = 100'000;
-constexpr std::int64_t kOldestAge = std::numeric_limits<std::int16_t>::max();
+constexpr std::int32_t kOldestAge = std::numeric_limits<std::int16_t>::max();
 
-std::int16_t age_of(std::int64_t seen_us, std::int64_t utime_us) {
-  if (seen_us == 0) return -1;
-  return static_cast<std::int16_t>(
-      std::clamp<std::int64_t>((utime_us - seen_us) / kAgeUnit_us, 0, kOldestAge));
+/// What is newer than `now` has come out of order: it is as new as can be.
+std::int16_t age_of(std::uint32_t seen, std::uint32_t now) {
+  if (seen == 0) return -1;
+  const std::uint32_t age = now - seen;
+  const bool from_later = age > std::numeric_limits<std::uint32_t>::max() / 2;
+  return static_cast<std::int16_t>(from_later ? 0 : std::min<std::uint32_t>(age, kOldestAge));
+}
+
+std::uint32_t seen_of(std::int16_t age, std::uint32_t now) {
+  if (age < 0) return 0;
+  const std::uint32_t seen = now - static_cast<std::uint32_t>(age);
+  return seen == 0 ? 1 : seen;
 }
 
 grid_tile_t to_message(CellIndex index, const GridTile* tile, std::int64_t utime_us) {
@@ -36,7 +43,8 @@ grid_tile_t to_message(CellIndex index, const GridTile* tile, std::int64_t utime
   message.slope.assign(tile->slope.begin(), tile->slope.end());
   message.clearance.assign(tile->clearance.begin(), tile->clearance.end());
   message.edges.assign(tile->edges.begin(), tile->edges.end());
-  for (const std::int64_t seen_us : tile->seen_us) message.age.push_back(age_of(seen_us, utime_us));
+  const std::uint32_t now = GridTile::seen_at(utime_us);
+  for (const std::uint32_t seen : tile->seen) message.age.push_back(age_of(seen, now));
   return message;
 }
 
@@ -94,8 +102,8 @@ void take(const grid_tile_t& message, std::int64_t utime_us, GridTile& tile) {
   std::ranges::copy(message.slope, tile.slope.begin());
   std::ranges::copy(message.clearance, tile.clearance.begin());
   std::ranges::copy(message.edges, tile.edges.begin());
-  std::ranges::transform(message.age, tile.seen_us.begin(),
-                         [utime_us](std::int16_t age) { return age < 0 ? 0 : utime_us - age * kAgeUnit_us; });
+  std::ranges::transform(message.age, tile.seen.begin(),
+                         [now = GridTile::seen_at(utime_us)](std::int16_t age) { return seen_of(age, now); });
 }
 
 }  // namespace

@@ -1,4 +1,7 @@
 #include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
 
 #include "mapping/node/mapper_node.hpp"
 #include "runtime/process/daemon.hpp"
@@ -23,10 +26,21 @@ void visit_settings(Visitor& visit, MapperProgramSettings& s) {
 
 int main(int argc, char** argv) {
   using namespace floornav;
+  MapFiles files;
   const DaemonInfo info{
       "floornav-mapper",
-      "Remembers the floor: SURFELS, POSE and MAP_REQUEST in, GRID_MAP and TERRAIN_MAP out."};
-  return run_daemon<MapperProgramSettings>(argc, argv, info, [](const MapperProgramSettings& settings) {
-    return std::make_unique<MapperNode>(settings.mapping, settings.robot);
+      "Remembers the floor: SURFELS, POSE, LOCAL_TO_GLOBAL and MAP_REQUEST in, GRID_MAP and TERRAIN_MAP out.",
+      [&files](CLI::App& app) {
+        app.add_option("--load", files.load, "begin with the map in this file")->type_name("FILE");
+        app.add_option(
+               "--save", files.save,
+               "keep the map in this file; the same one as --load: it may be missing at the first run")
+            ->type_name("FILE");
+        app.add_option("--save-every", files.save_every_s, "seconds; it is saved at the end in any case")
+            ->check(CLI::Range(1.0, 1e6))
+            ->capture_default_str();
+      }};
+  return run_daemon<MapperProgramSettings>(argc, argv, info, [&files](const MapperProgramSettings& settings) {
+    return std::make_unique<MapperNode>(settings.mapping, settings.robot, files);
   });
 }

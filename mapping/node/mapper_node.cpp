@@ -47,8 +47,11 @@ void append(FloorEvidence& frame, const FloorEvidence& part) {
 
 }  // namespace
 
-MapperNode::MapperNode(const MappingSettings& settings, const RobotSettings& robot)
-    : world_(settings, robot), jumps_(robot), stopping_distance_m_(stopping_distance_m(robot)) {}
+MapperNode::MapperNode(const MappingSettings& settings, const RobotSettings& robot, MapFiles files)
+    : world_(settings, robot),
+      keeper_(std::move(files)),
+      jumps_(robot),
+      stopping_distance_m_(stopping_distance_m(robot)) {}
 
 std::vector<std::string> MapperNode::outputs() const {
   return {channel::kGridMap, channel::kTerrainMap};
@@ -59,6 +62,9 @@ void MapperNode::subscribe(Inbox& inbox) {
                              [this](const surfels_t& message, Micros) { accept_part(message); });
   inbox.subscribe<pose_t>(channel::kPose, Keep::kAll,
                           [this](const pose_t& pose, Micros) { accept_pose(pose); });
+  inbox.subscribe<rigid_transform_t>(
+      channel::kLocalToGlobal, Keep::kLatest,
+      [this](const rigid_transform_t& transform, Micros) { keeper_.take(transform); });
   inbox.subscribe<map_request_t>(channel::kMapRequest, Keep::kAll,
                                  [this](const map_request_t& request, Micros) { accept_request(request); });
 }
@@ -75,6 +81,7 @@ void MapperNode::accept_pose(const pose_t& pose) {
   if (T_world_body.translation().cwiseAbs().maxCoeff() > kMaxPosition_m)
     throw std::invalid_argument("pose: absurd position");
   const PoseJumps::Move move = jumps_.take(pose.utime, T_world_body);
+  if (move != PoseJumps::Move::kOld) newest_pose_ = T_world_body;
   if (move == PoseJumps::Move::kClockStepped) newest_jump_us_.reset();
   if (move != PoseJumps::Move::kJump) return;
   newest_jump_us_ = pose.utime;
@@ -96,8 +103,26 @@ void MapperNode::start_epoch_if_jumped(Outbox& out) {
   publish_tiles({}, out);
 }
 
+/// Where the map says that it was last seen from may be far away: the map was loaded.
+Eigen::Vector2d MapperNode::robot_m() const {
+  return newest_pose_.value_or(world_.T_world_body()).translation().head<2>();
+}
+
+void MapperNode::place_loaded_map(Outbox& out) {
+  const std::optional<MapMemory> memory = keeper_.take_loaded();
+  if (!memory) return;
+  try {
+    world_.restore(*memory);
+    schedule_.request(tiles_within(world_.grid(), robot_m(), TileSchedule::kRadius_m));
+  } catch (const std::invalid_argument& error) {
+    trouble_ = std::string("the loaded map does not fit: ") + error.what();
+  }
+  publish_tiles({}, out);
+}
+
 bool MapperNode::step(Micros now, Budget& /*budget*/, Outbox& out) {
   start_epoch_if_jumped(out);
+  place_loaded_map(out);
   if (waiting_.empty()) return false;
   const EvidencePart part = std::move(waiting_.front());
   waiting_.pop_front();
@@ -153,11 +178,19 @@ void MapperNode::tick(Micros now, Outbox& out) {
   if (open_ && now - open_->begun > kLastPartWait) finish_frame(out);
   publish_tiles(schedule_.due(world_.grid(), robot_m()), out);
   if (++ticks_ % kTicksPerTerrain == 0) publish_terrain(out);
+  keeper_.tick(now, world_);
+}
+
+void MapperNode::stop(Micros /*now*/, Outbox& /*out*/) {
+  keeper_.stop(world_);
 }
 
 void MapperNode::report(health_t& health) const {
   for (const auto& [cause, count] : drops_) add_drop(health, cause, count);
   if (!trouble_.empty()) worsen(health, health_t::DEGRADED, trouble_);
+  if (!keeper_.trouble().empty()) worsen(health, health_t::DEGRADED, "map not saved: " + keeper_.trouble());
+  if (keeper_.waits_for_place())
+    worsen(health, health_t::DEGRADED, "the loaded map waits for LOCAL_TO_GLOBAL to know its place");
   if (ticks_without_evidence_ > kTicksUntilStale)
     worsen(health, health_t::DEGRADED, "no SURFELS for a second or more");
 }

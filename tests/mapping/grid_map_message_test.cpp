@@ -26,7 +26,8 @@ void fill(GridTile& tile, std::int64_t version, std::mt19937& random) {
     tile.slope[i] = static_cast<std::uint8_t>(random());
     tile.clearance[i] = static_cast<std::uint8_t>(random());
     tile.edges[i] = static_cast<std::uint8_t>(random());
-    tile.seen_us[i] = random() % 4 == 0 ? 0 : kNow_us - 100'000 * static_cast<std::int64_t>(random() % 30000);
+    tile.seen[i] =
+        random() % 4 == 0 ? 0 : GridTile::seen_at(kNow_us) - static_cast<std::uint32_t>(random() % 30000);
   }
 }
 
@@ -68,7 +69,7 @@ void expect_equal(const GridMap& a, const GridMap& b) {
     EXPECT_EQ(x.slope, y.slope);
     EXPECT_EQ(x.clearance, y.clearance);
     EXPECT_EQ(x.edges, y.edges);
-    EXPECT_EQ(x.seen_us, y.seen_us);
+    EXPECT_EQ(x.seen, y.seen);
   }
 }
 

@@ -138,9 +138,11 @@ FuseCost measure_fuse(const std::vector<FloorEvidence>& frames, int repeats) {
 
 std::vector<MapSizeCost> measure_map_sizes(const std::vector<FloorEvidence>& frames,
                                            const std::vector<double>& areas_m2) {
-  constexpr int kLaps = 4;
-  constexpr std::int32_t kLegs = 6;
+  constexpr int kLaps = 2;
+  constexpr std::int32_t kLegs = 20;
   constexpr std::int32_t kLeg_cells = 32;
+  constexpr std::int64_t kUpdatesPerTerrain = 30;  // once a second
+  std::int64_t updates = 0;
   WorldMap map(MappingSettings{}, RobotSettings{});
   SiteSurvey survey(frames.front().lattice);
   std::int64_t utime_us = 0;
@@ -158,6 +160,7 @@ std::vector<MapSizeCost> measure_map_sizes(const std::vector<FloorEvidence>& fra
           const double began_ms = thread_cpu_ms();
           map.integrate(seen);
           map.refresh();
+          if (++updates % kUpdatesPerTerrain == 0) map.refresh_terrain();
           if (lap == 0) continue;  // the lane itself is seen for the first time
           update_ms.push_back(thread_cpu_ms() - began_ms);
           sum_ms += update_ms.back();

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <future>
+#include <optional>
+#include <string>
+
+#include "floornav/rigid_transform_t.hpp"
+#include "mapping/map_memory.hpp"
+#include "mapping/world_map.hpp"
+#include "runtime/process/time.hpp"
+
+namespace floornav {
+
+/// Where a map comes from at the start and is kept; empty paths: nowhere.
+struct MapFiles {
+  std::filesystem::path load;  ///< may be missing only if it is `save` too: the first run
+  std::filesystem::path save;
+  double save_every_s = 60;  ///< and when the process ends
+};
+
+/// Loads a map at the start and saves it now and then. A map that was saved with LOCAL_TO_GLOBAL lies where
+/// that puts it in the local frame of today, and waits until LOCAL_TO_GLOBAL is known; another one lies where
+/// it was.
+class MapKeeper {
+ public:
+  /// Throws std::runtime_error for a file that cannot be loaded.
+  explicit MapKeeper(MapFiles files);
+
+  /// LOCAL_TO_GLOBAL. Throws std::invalid_argument for numbers that cannot be.
+  void take(const rigid_transform_t& message);
+
+  /// The loaded map in the local frame, once, as soon as its place is known.
+  std::optional<MapMemory> take_loaded();
+  [[nodiscard]] bool waits_for_place() const {
+    return loaded_ && loaded_->T_global_local && !T_global_local_;
+  }
+
+  /// Saves when it is time, beside the caller's work.
+  void tick(Micros now, const WorldMap& world);
+  /// Saves now. Throws std::runtime_error.
+  void stop(const WorldMap& world);
+  /// Of the last try to save; empty: it is on the disk.
+  [[nodiscard]] const std::string& trouble() const { return trouble_; }
+
+ private:
+  [[nodiscard]] bool has_something_to_save(const WorldMap& world) const;
+  [[nodiscard]] MapMemory memory_of(const WorldMap& world) const;
+  void end_save();
+
+  MapFiles files_;
+  std::optional<MapMemory> loaded_;
+  std::optional<Pose> T_global_local_;
+  std::optional<Micros> saved_at_;
+  std::future<void> saving_;
+  std::string trouble_;
+};
+
+}  // namespace floornav
