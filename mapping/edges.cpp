@@ -21,6 +21,18 @@ bool diagonal_open(const VertexRef& from, std::size_t k, std::uint8_t sides, con
          rule.open(from.vertex().surface, from.neighbour(k).vertex().surface, k);
 }
 
+/// The edges that cannot be told because they, or a way around their corner, lead to a tile that is not
+/// there.
+std::uint8_t towards_absent(const VertexRef& from) {
+  const auto on_border = [](std::int32_t at) { return at == 0 || at == MapTile::kSide - 1; };
+  if (!on_border(from.x) && !on_border(from.y)) return 0;
+  std::uint8_t mask = 0;
+  for (std::size_t k = 0; k < 8; ++k)
+    if (!from.neighbour(k))
+      mask |= static_cast<std::uint8_t>(k % 2 == 0 ? bit(k - 1) | bit(k) | bit(k + 1) : bit(k));
+  return mask;
+}
+
 }  // namespace
 
 bool StepRule::open(const Surface& from, const Surface& to, std::size_t k) const {
@@ -53,14 +65,15 @@ void open_steps(MapTile& tile, const StepRule& rule) {
   }
 }
 
-std::uint8_t open_edges(const VertexRef& from, const StepRule& rule) {
+std::uint8_t open_edges(const VertexRef& from, const StepRule& rule, std::uint8_t published) {
   if (!from.vertex().is(Vertex::kFree)) return 0;
-  std::uint8_t mask = 0;
+  const std::uint8_t kept = towards_absent(from);
+  auto mask = static_cast<std::uint8_t>(published & kept);
   for (std::size_t k = 0; k < 8; k += 2)
-    if (side_open(from, k)) mask |= bit(k);
+    if ((kept & bit(k)) == 0 && side_open(from, k)) mask |= bit(k);
   const std::uint8_t sides = mask;
   for (std::size_t k = 1; k < 8; k += 2)
-    if (diagonal_open(from, k, sides, rule)) mask |= bit(k);
+    if ((kept & bit(k)) == 0 && diagonal_open(from, k, sides, rule)) mask |= bit(k);
   return mask;
 }
 

@@ -25,7 +25,7 @@ void open_steps(MapTile& tile, const StepRule& rule);
 
 /// GridTile::edges of a vertex: open where both vertices are free and eq. (2) lets the robot pass. A diagonal
 /// is open only where both ways around its corner are open too, so that no wheel cuts over a step or past an
-/// obstacle's corner.
-std::uint8_t open_edges(const VertexRef& from, const StepRule& rule);
+/// obstacle's corner. Towards tiles that rest the edges stay as they were `published`.
+std::uint8_t open_edges(const VertexRef& from, const StepRule& rule, std::uint8_t published);
 
 }  // namespace floornav

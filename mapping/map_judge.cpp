@@ -169,7 +169,8 @@ bool MapJudge::publish_edges(MapTile& tile) const {
   for (std::int32_t y = 0; y < MapTile::kSide; ++y) {
     for (std::int32_t x = 0; x < MapTile::kSide; ++x) {
       const VertexRef place{&tile, x, y};
-      differs |= assign(tile.grid->edges[place.index()], open_edges(place, rule_));
+      std::uint8_t& edges = tile.grid->edges[place.index()];
+      differs |= assign(edges, open_edges(place, rule_, edges));
     }
   }
   return differs;

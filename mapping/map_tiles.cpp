@@ -14,6 +14,27 @@ double distance_m(CellIndex tile, const Eigen::Vector2d& place_m, double side_m)
   return (place_m.cwiseMax(low).cwiseMin(high) - place_m).norm();
 }
 
+/// Takes a tile out of its neighbours' sight.
+void part(const MapTile& tile) {
+  for (std::size_t k = 0; k < 8; ++k) {
+    MapTile* const beside = tile.neighbours[k];
+    if (beside == nullptr) continue;
+    const std::size_t back = (k + 4) % 8;
+    beside->neighbours[back] = nullptr;
+    for (std::int32_t i = 0; i < MapTile::kSide && k % 2 == 0; ++i) {
+      const std::int32_t last = MapTile::kSide - 1;
+      const VertexRef border{beside,
+                             back == 0   ? last
+                             : back == 4 ? 0
+                                         : i,
+                             back == 2   ? last
+                             : back == 6 ? 0
+                                         : i};
+      beside->steps_open[border.index()] &= static_cast<std::uint8_t>(~(1U << back));
+    }
+  }
+}
+
 }  // namespace
 
 MapTile* MapTiles::find(CellIndex tile) const {
@@ -60,8 +81,7 @@ void MapTiles::rest_outside(const Eigen::Vector2d& center_m, double radius_m, do
     const MapTile& tile = *entry.second;
     if (tile.touched.any() || distance_m(tile.index, center_m, resolution_m * MapTile::kSide) <= radius_m)
       return false;
-    for (std::size_t k = 0; k < 8; ++k)
-      if (tile.neighbours[k] != nullptr) tile.neighbours[k]->neighbours[(k + 4) % 8] = nullptr;
+    part(tile);
     resting_[tile.index] = pack(tile);
     return true;
   });

@@ -179,9 +179,31 @@ TEST(MapMemory, WhatTheRobotLeavesBehindIsPackedAndComesBackUnchanged) {
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     EXPECT_EQ(at(tiles[i]).state, before[i].state);
     EXPECT_EQ(at(tiles[i]).seen, before[i].seen);
+    if (tiles[i].ix > 0 && tiles[i].iy < 0) {
+      EXPECT_EQ(at(tiles[i]).edges, before[i].edges);
+    }
   }
   EXPECT_EQ(map.grid().state(map.grid().lattice().cell_of(1.75, 0)), VertexState::kBlocked);
   EXPECT_TRUE(std::isfinite(map.terrain().height_m(map.terrain().lattice().cell_of(1.75, 0))));
+}
+
+TEST(MapMemory, APathLeadsAcrossTheBorderOfWhatIsPacked) {
+  WorldMap map(MappingSettings{}, RobotSettings{});
+  for (int i = 0; i < 40; ++i) {
+    const int at = i < 20 ? i : 39 - i;  // there and back
+    FloorEvidence frame = see(flat(), {2.0 * at - 0.5, 2.0 * at + 2.5, -0.5, 0.5});
+    frame.T_world_body.translation().x() = 2.0 * at;
+    frame.utime_us = 1'000'000 + i * 100'000;
+    map.integrate(frame);
+    map.refresh();
+    map.refresh_terrain();
+    for (double x_m = 0; x_m < 2.0 * at + 2; x_m += 0.05) {
+      const CellIndex cell = map.grid().lattice().cell_of(x_m, 0);
+      const GridTile* const tile = map.grid().find(GridMap::tile_of(cell));
+      ASSERT_EQ(tile->edges[static_cast<std::size_t>(GridTile::index_of(cell))], 0xFF)
+          << "frame " << i << " x " << x_m;
+    }
+  }
 }
 
 class MovedMaps : public testing::TestWithParam<double> {};
