@@ -1,10 +1,11 @@
 #include "tools/bench/map_cost.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "mapping/world_map.hpp"
 #include "perception/floor_perception.hpp"
-#include "tools/bench/bench_scene.hpp"
 #include "tools/bench/cpu_clock.hpp"
 #include "tools/simulator/depth_sensor.hpp"
 #include "tools/simulator/vehicle.hpp"
@@ -13,10 +14,31 @@ namespace floornav {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
-constexpr double kMovePerFrame_m = 0.03;
+constexpr double kMovePerFrame_m = 0.1;
 constexpr std::int64_t kFrame_us = 33'333;
 constexpr double kMedian = 0.5;
 constexpr double kAlmostAll = 0.99;
+
+/// A street with boxes on both sides.
+Shapes street() {
+  constexpr int kBoxes = 14;
+  Shapes shapes;
+  for (int i = 0; i < kBoxes; ++i) {
+    const double side = i % 2 == 0 ? 1 : -1;
+    const Footprint footprint{
+        {1.2 + 1.1 * i, side * (0.7 + 0.1 * (i % 3))}, {1, 0}, {0.15, 0.1 + 0.03 * (i % 4)}};
+    shapes.blocks.push_back({footprint, -1.0, 0.06 + 0.07 * (i % 5), {0, 0}});
+  }
+  return shapes;
+}
+
+/// What was seen of a map.
+double area_m2(const GridMap& map) {
+  std::int64_t seen = 0;
+  for (const auto& [index, tile] : map.tiles())
+    seen += GridTile::kVertices - std::ranges::count(tile->state, VertexState::kUnknown);
+  return static_cast<double>(seen) * map.lattice().pitch_m * map.lattice().pitch_m;
+}
 
 /// The frame as it would be seen elsewhere, whole cells away.
 FloorEvidence moved(const FloorEvidence& frame, CellIndex by, std::int64_t utime_us) {
@@ -77,7 +99,6 @@ class SiteSurvey {
       map.refresh_terrain();
     }
   }
-  [[nodiscard]] double area_m2() const { return patches_ * patch_m2_; }
   [[nodiscard]] std::int64_t utime_us() const { return utime_us_; }
 
  private:
@@ -91,7 +112,7 @@ class SiteSurvey {
 }  // namespace
 
 std::vector<FloorEvidence> kinect_evidence(int frames) {
-  const Shapes shapes = bench_scene();
+  const Shapes shapes = street();
   DepthSensor sensor(kinect(), kSeed);
   const SensorSpec& spec = sensor.model();
   FloorPerception perception(PerceptionSettings{}, RobotSettings{});
@@ -138,38 +159,29 @@ FuseCost measure_fuse(const std::vector<FloorEvidence>& frames, int repeats) {
 
 std::vector<MapSizeCost> measure_map_sizes(const std::vector<FloorEvidence>& frames,
                                            const std::vector<double>& areas_m2) {
-  constexpr int kLaps = 2;
-  constexpr std::int32_t kLegs = 20;
-  constexpr std::int32_t kLeg_cells = 32;
-  constexpr std::int64_t kUpdatesPerTerrain = 30;  // once a second
-  std::int64_t updates = 0;
+  constexpr int kLaps = 6;  // the first is not counted: it sees the street for the first time
+  constexpr std::int64_t kUpdatesPerTerrain = 30;
   WorldMap map(MappingSettings{}, RobotSettings{});
   SiteSurvey survey(frames.front().lattice);
-  std::int64_t utime_us = 0;
+  std::int64_t updates = 0;
   std::vector<MapSizeCost> costs;
-  for (const double area_m2 : areas_m2) {
-    survey.extend_to(area_m2, map);
+  for (const double area : areas_m2) {
+    survey.extend_to(area, map);
     std::vector<double> update_ms;
-    double sum_ms = 0;
-    for (int lap = 0; lap <= kLaps; ++lap) {
-      for (std::int32_t leg = 0; leg < 2 * kLegs; ++leg) {
-        const std::int32_t along = leg < kLegs ? leg : 2 * kLegs - 1 - leg;
-        for (const FloorEvidence& frame : frames) {
-          utime_us = std::max(utime_us, survey.utime_us()) + kFrame_us;
-          const FloorEvidence seen = moved(frame, {along * kLeg_cells, 0}, utime_us);
-          const double began_ms = thread_cpu_ms();
-          map.integrate(seen);
-          map.refresh();
-          if (++updates % kUpdatesPerTerrain == 0) map.refresh_terrain();
-          if (lap == 0) continue;  // the lane itself is seen for the first time
-          update_ms.push_back(thread_cpu_ms() - began_ms);
-          sum_ms += update_ms.back();
-        }
-      }
+    for (std::size_t i = 0; i < kLaps * frames.size(); ++i) {
+      const std::size_t place = i % (2 * frames.size());
+      const FloorEvidence& frame = frames[place < frames.size() ? place : 2 * frames.size() - 1 - place];
+      const FloorEvidence seen = moved(frame, {0, 0}, survey.utime_us() + ++updates * kFrame_us);
+      const double began_ms = thread_cpu_ms();
+      map.integrate(seen);
+      map.refresh();
+      if (updates % kUpdatesPerTerrain == 0) map.refresh_terrain();
+      if (i >= frames.size()) update_ms.push_back(thread_cpu_ms() - began_ms);
     }
-    const double bytes = static_cast<double>(map.memory_bytes());
-    costs.push_back({survey.area_m2(), quantile_of(update_ms, kMedian),
-                     sum_ms / static_cast<double>(update_ms.size()), bytes / survey.area_m2()});
+    const double sum_ms = std::accumulate(update_ms.begin(), update_ms.end(), 0.0);
+    const double m2 = area_m2(map.grid());
+    costs.push_back({m2, quantile_of(update_ms, kMedian), sum_ms / static_cast<double>(update_ms.size()),
+                     static_cast<double>(map.memory_bytes()) / m2});
   }
   return costs;
 }

@@ -24,7 +24,7 @@ constexpr double kHeightGoal_cm = 0.3;
 struct CommandOptions {
   MapAccuracyOptions accuracy;
   double large_m2 = 100'000;
-  int frames = 12;
+  int frames = 60;
   int threads = 2;
   bool json = false;
 };
@@ -109,7 +109,7 @@ nlohmann::json json_of(const Figures& f) {
 
 void run(const CommandOptions& options) {
   constexpr double kSmall_m2 = 100;
-  constexpr int kRepeats = 10;
+  constexpr int kRepeats = 4;
   ThreadPool pool(options.threads);
   Figures figures;
   const std::vector<FloorEvidence> frames = kinect_evidence(options.frames);
@@ -135,6 +135,9 @@ void add_mapping_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--frames", o->accuracy.frames, "Frames in each world")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--street-frames", o->frames, "Frames that are timed")
+      ->check(CLI::Range(2, 1000))
       ->capture_default_str();
   command->add_option("--pose-noise", o->accuracy.pose_noise.position_m, "m, 1 sigma of each axis")
       ->check(CLI::Range(0.0, 1.0))
