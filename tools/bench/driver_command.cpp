@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "drivers/kinect/node/capture.hpp"
 #include "drivers/kinect/node/cloud_message.hpp"
+#include "drivers/kinect/node/kinect_capture.hpp"
 #include "drivers/kinect/node/kinect_node.hpp"
 #include "drivers/kinect/node/openni_device.hpp"
 #include "runtime/process/lcm_transport.hpp"
@@ -33,9 +33,9 @@ struct Options {
 };
 
 /// Notes when the frame arrived that the node takes, for the bus that its message then goes to.
-class TimedSource final : public FrameSource {
+class TimedSource final : public FrameSource<CapturedFrame> {
  public:
-  explicit TimedSource(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
+  explicit TimedSource(std::unique_ptr<FrameSource<CapturedFrame>> source) : source_(std::move(source)) {}
 
   bool take(CapturedFrame& frame) override {
     const bool taken = source_->take(frame);
@@ -48,7 +48,7 @@ class TimedSource final : public FrameSource {
   std::int64_t arrival_us = 0;
 
  private:
-  std::unique_ptr<FrameSource> source_;
+  std::unique_ptr<FrameSource<CapturedFrame>> source_;
 };
 
 /// Publishes, and notes how long each cloud took from its frame's arrival until the bus had it.
@@ -139,7 +139,7 @@ DriverCost measure(const Options& options) {
   cost.library_ms_per_frame = library_ms_per_frame(options.kinect, options.frames, samples);
   cost.strips = measure_strips(samples);
   TimedBus bus(options.lcm_url, options.kinect.channel);
-  auto source = std::make_unique<TimedSource>(std::make_unique<Capture>(
+  auto source = std::make_unique<TimedSource>(std::make_unique<KinectCapture>(
       std::make_unique<OpenNiDevice>(options.kinect), periods_of(options.kinect), [](const std::string&) {}));
   bus.source = source.get();
   KinectNode node(options.kinect, std::move(source), [] {});

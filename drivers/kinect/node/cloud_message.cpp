@@ -1,6 +1,6 @@
 #include "drivers/kinect/node/cloud_message.hpp"
 
-#include "drivers/kinect/mounting.hpp"
+#include "drivers/camera/mounting.hpp"
 
 namespace floornav {
 

@@ -2,22 +2,16 @@
 
 #include <chrono>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 
 #include "drivers/camera/device_clock.hpp"
+#include "drivers/camera/node/device.hpp"
 #include "drivers/kinect/color_image.hpp"
 #include "drivers/kinect/device_frame.hpp"
 #include "drivers/kinect/lens.hpp"
 #include "runtime/geometry/pinhole.hpp"
 
 namespace floornav {
-
-/// What a device cannot do, in one line.
-class DeviceError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// The depth stream of an open device.
 struct DepthStream {
@@ -33,7 +27,7 @@ struct DepthStream {
 /// A depth camera behind its library. All calls come from one thread and may take their time.
 class DepthDevice {
  public:
-  enum class Event { kFrame, kNothing, kGone };
+  using Event = DeviceEvent;
 
   virtual ~DepthDevice() = default;
   /// True where the device that open() would take is there.

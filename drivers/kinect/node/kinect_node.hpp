@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "drivers/camera/device_clock.hpp"
 #include "drivers/camera/frame_content.hpp"
-#include "drivers/camera/frame_gaps.hpp"
-#include "drivers/kinect/node/frame_source.hpp"
+#include "drivers/camera/frame_count.hpp"
+#include "drivers/camera/node/capture_health.hpp"
+#include "drivers/kinect/node/captured_frame.hpp"
 #include "drivers/kinect/settings.hpp"
 #include "floornav/depth_cloud_t.hpp"
 #include "runtime/process/latency.hpp"
@@ -23,7 +23,7 @@ class KinectNode final : public Node {
  public:
   /// `give_up` is called, once, where OpenNI2 has not come back from a call for 10 s: only a new process
   /// helps.
-  KinectNode(const KinectSettings& settings, std::unique_ptr<FrameSource> source,
+  KinectNode(const KinectSettings& settings, std::unique_ptr<FrameSource<CapturedFrame>> source,
              std::function<void()> give_up);
 
   [[nodiscard]] std::string name() const override { return settings_.name; }
@@ -42,18 +42,14 @@ class KinectNode final : public Node {
   void publish_color(Outbox& out);
 
   KinectSettings settings_;
-  std::unique_ptr<FrameSource> source_;
+  std::unique_ptr<FrameSource<CapturedFrame>> source_;
   std::function<void()> give_up_;
   CapturedFrame frame_;
   std::shared_ptr<const DepthStream> stream_;
-  DeviceClock clock_;
-  FrameGaps gaps_{0};
+  FrameCount count_;
   FrameContent content_;
-  FrameContent::Verdict verdict_ = FrameContent::Verdict::kGood;  ///< on the last frame
+  FrameHealth frames_;
   depth_cloud_t cloud_;
-  std::int64_t lost_ = 0;
-  std::int64_t withheld_ = 0;
-  Micros last_loss_{0};
   Micros now_{0};
   LatencyHistogram latency_;  ///< from a frame's arrival to its message
 };

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "drivers/kinect/node/capture.hpp"
+#include "drivers/kinect/node/kinect_capture.hpp"
 #include "drivers/kinect/node/kinect_node.hpp"
 #include "drivers/kinect/node/openni_device.hpp"
 #include "runtime/process/daemon.hpp"
@@ -58,7 +58,7 @@ std::unique_ptr<Node> make_node(KinectSettings settings, KinectOptions& options)
   if (!options.device.empty()) settings.device = options.device;
   auto device =
       std::make_unique<OpenNiDevice>(settings, OpenNiOptions{Playback::kInRealTime, options.record_oni});
-  auto capture = std::make_unique<Capture>(std::move(device), periods_of(settings), say);
+  auto capture = std::make_unique<KinectCapture>(std::move(device), periods_of(settings), say);
   return std::make_unique<KinectNode>(settings, std::move(capture), [&options] {
     say("OpenNI2 hangs: this process ends, so that a new one can begin");
     options.gave_up = true;

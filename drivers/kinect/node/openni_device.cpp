@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "drivers/camera/node/host_time.hpp"
 #include "drivers/kinect/field_of_view.hpp"
 #include "drivers/kinect/node/calibration_file.hpp"
-#include "drivers/kinect/node/host_time.hpp"
 #include "drivers/kinect/node/usb_devices.hpp"
 
 namespace floornav {

@@ -1,6 +1,4 @@
 // The capture's thread against a device in the test's hands.
-#include "drivers/kinect/node/capture.hpp"
-
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -12,6 +10,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "drivers/kinect/node/kinect_capture.hpp"
 
 namespace floornav {
 namespace {
@@ -55,9 +55,10 @@ class FakeDevice final : public DepthDevice {
 
 class CaptureTest : public testing::Test {
  protected:
-  std::unique_ptr<Capture> make() {
-    return std::make_unique<Capture>(std::make_unique<FakeDevice>(gone, hangs),
-                                     Connection::Periods{100'000, 100'000, 5'000}, [](const std::string&) {});
+  std::unique_ptr<KinectCapture> make() {
+    return std::make_unique<KinectCapture>(std::make_unique<FakeDevice>(gone, hangs),
+                                           Connection::Periods{100'000, 100'000, 5'000},
+                                           [](const std::string&) {});
   }
   static bool eventually(const std::function<bool()>& holds) {
     const auto deadline = std::chrono::steady_clock::now() + 10s;

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/kinect/connection.hpp"
+#include "drivers/camera/connection.hpp"
+#include "drivers/camera/mounting.hpp"
 #include "drivers/kinect/device_frame.hpp"
 #include "drivers/kinect/field_of_view.hpp"
 #include "drivers/kinect/lens.hpp"
-#include "drivers/kinect/mounting.hpp"
 
 namespace floornav {
 namespace {

@@ -98,11 +98,11 @@ DriverRig::~DriverRig() {
 
 void DriverRig::start() {
   const Connection::Periods periods = periods_of(settings);
-  auto capture =
-      std::make_unique<Capture>(std::make_unique<OpenNiDevice>(settings), periods, [this](const auto& line) {
-        const std::scoped_lock lock(lines_mutex_);
-        lines_.push_back(line);
-      });
+  auto capture = std::make_unique<KinectCapture>(std::make_unique<OpenNiDevice>(settings), periods,
+                                                 [this](const auto& line) {
+                                                   const std::scoped_lock lock(lines_mutex_);
+                                                   lines_.push_back(line);
+                                                 });
   capture_ = capture.get();
   node_ = std::make_unique<KinectNode>(settings, std::move(capture), [this] { gave_up_ = true; });
   executor_ = std::make_unique<LiveExecutor>(*node_, bus, LiveOptions{});

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "drivers/kinect/node/capture.hpp"
+#include "drivers/kinect/node/kinect_capture.hpp"
 #include "drivers/kinect/node/kinect_node.hpp"
 #include "drivers/kinect/node/openni_device.hpp"
 #include "floornav/depth_cloud_t.hpp"
@@ -92,7 +92,7 @@ class DriverRig {
   mutable std::mutex lines_mutex_;
   std::vector<std::string> lines_;
   std::unique_ptr<KinectNode> node_;
-  Capture* capture_ = nullptr;  ///< the node's
+  KinectCapture* capture_ = nullptr;  ///< the node's
   std::atomic<bool> gave_up_ = false;
   std::unique_ptr<LiveExecutor> executor_;
   std::atomic<bool> stopping_ = false;

@@ -17,7 +17,7 @@ constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 constexpr std::int64_t kPeriod_us = 33'333;
 
-struct FakeSource final : FrameSource {
+struct FakeSource final : FrameSource<CapturedFrame> {
   bool take(CapturedFrame& frame) override {
     if (!has_frame) return false;
     has_frame = false;
@@ -94,7 +94,8 @@ class KinectNodeTest : public testing::Test {
 
   int given_up = 0;
   FakeSource* source = new FakeSource;  // the node's
-  KinectNode node{KinectSettings{}, std::unique_ptr<FrameSource>(source), [this] { ++given_up; }};
+  KinectNode node{KinectSettings{}, std::unique_ptr<FrameSource<CapturedFrame>>(source),
+                  [this] { ++given_up; }};
   Outbox out{fixed_identity("kinect")};
   std::shared_ptr<const DepthStream> stream;
   std::int64_t wall_us = 1'700'000'000'000'000;

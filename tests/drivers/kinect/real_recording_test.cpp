@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "drivers/kinect/mounting.hpp"
+#include "drivers/camera/mounting.hpp"
 #include "drivers/kinect/node/openni_device.hpp"
 #include "perception/floor_perception.hpp"
 #include "tests/real_data.hpp"

@@ -1,4 +1,4 @@
-#include "drivers/kinect/mounting.hpp"
+#include "drivers/camera/mounting.hpp"
 
 #include <numbers>
 

@@ -3,25 +3,9 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <memory>
 #include <string>
-#include <vector>
-
-#include "drivers/kinect/node/depth_device.hpp"
 
 namespace floornav {
-
-/// A frame that has come whole, the right way round, without distortion.
-struct CapturedFrame {
-  std::shared_ptr<const DepthStream> stream;  ///< a new one each time the device was opened
-  std::vector<std::uint16_t> pixels;          ///< row by row, counts of stream->count_m
-  std::int64_t number = 0;                    ///< the device's own count
-  /// Frames that came since the one before and are not handed over: CaptureStatus::drops counts them.
-  std::int64_t dropped_before = 0;
-  std::uint64_t stamp = 0;  ///< of the device's clock
-  HostTime arrival;
-  ColorImage color;  ///< empty where none came with it
-};
 
 /// How a device is.
 struct CaptureStatus {
@@ -33,12 +17,13 @@ struct CaptureStatus {
 };
 
 /// Where a node's frames come from.
+template <class Frame>
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
   /// Swaps the next frame into `frame`, whose memory is used again. False where none has come since the last
   /// call.
-  virtual bool take(CapturedFrame& frame) = 0;
+  virtual bool take(Frame& frame) = 0;
   [[nodiscard]] virtual CaptureStatus status() const = 0;
   /// `arrived` is called on any thread after each frame; empty: no more.
   virtual void notify(std::function<void()> arrived) = 0;

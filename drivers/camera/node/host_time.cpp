@@ -1,4 +1,4 @@
-#include "drivers/kinect/node/host_time.hpp"
+#include "drivers/camera/node/host_time.hpp"
 
 #include <chrono>
 

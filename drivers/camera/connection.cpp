@@ -1,4 +1,4 @@
-#include "drivers/kinect/connection.hpp"
+#include "drivers/camera/connection.hpp"
 
 namespace floornav {
 
