@@ -1,43 +1,48 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
 namespace floornav {
 
-/// Refines disparities that are within about a pixel of the truth, at full resolution.
+/// One round of refining disparities that are within about a pixel of the truth.
 ///
-/// Around each pixel a window of the right image, warped by the disparities there (so that it follows a
-/// slanted floor; disparities of one surface are smoothed first), is compared with the left one; the shift
-/// that is left over is found by least squares on the images' gradients (Lucas-Kanade), brightness difference
-/// taken out, again `kRounds` times. Being no parabola through whole disparities it does not prefer whole
+/// Around each pixel a window of the right image, warped by the disparities there, is compared with the left
+/// one; the shift that is left over is found by least squares on the images' gradients (Lucas-Kanade),
+/// brightness difference taken out. Being no parabola through whole disparities it does not prefer whole
 /// ones.
 class DisparityRefinement {
  public:
-  static constexpr int kRounds = 2;
   /// `window`: side, px, odd.
-  explicit DisparityRefinement(int window) : window_(window) {}
+  explicit DisparityRefinement(int window) : reach_(window / 2) {}
 
-  /// `left`, `right`: rectified, CV_32F. `disparity` (px; 0 = none) is refined in place. `sigma` becomes 1
-  /// sigma of each, px, from what is left of the difference and from the window's texture; infinite where the
-  /// window has none or the rounds did not settle.
-  void refine(const cv::Mat1f& left, const cv::Mat1f& right, cv::Mat1f& disparity, cv::Mat1f& sigma);
+  /// Some rows: `left` and `right` rectified, 8 bit; `disparity` px, 0 = none, to `refined`. `sigma` becomes
+  /// 1 sigma of each, px, from what is left of the difference and from the window's texture; infinite where
+  /// the window has none or the disparity has not settled. Bands of rows are independent work, each with its
+  /// own object.
+  void refine(const cv::Mat1b& left, const cv::Mat1b& right, const cv::Mat1f& disparity, cv::Range rows,
+              cv::Mat1f& refined, cv::Mat1f& sigma);
 
  private:
-  void smooth(cv::Mat1f& disparity);
-  void compare(const cv::Mat1f& left, const cv::Mat1f& right, const cv::Mat1f& disparity);
-  void sum_windows();
+  /// Sums over windows: pixels known, difference, gradient and their products.
+  enum Sum { kKnown, kRest, kGradient, kProduct, kSquares, kRestSquares, kSums };
+  /// What a row adds to them.
+  struct Row {
+    std::vector<float> known, rest, gradient;
+  };
 
-  int window_;
-  cv::Mat1f rough_;  ///< disparities before smoothing
-  std::vector<float> counts_;
-  cv::Mat1f known_;     ///< 1 where a disparity is
-  cv::Mat1f rest_;      ///< left minus warped right
-  cv::Mat1f gradient_;  ///< along the row, mean of both images
-  cv::Mat1f product_;   ///< gradient x rest
-  cv::Mat1f squares_;   ///< gradient squared
-  cv::Mat1f rest_squares_;
+  void compare(const std::uint8_t* left, const std::uint8_t* right, const float* disparity, int columns,
+               Row& row) const;
+  void add(const Row& row, float sign);
+  void slide();
+  void solve(const float* disparity, float* refined, float* sigma) const;
+
+  int reach_;
+  std::vector<Row> ring_;                         ///< the rows that are in the sums
+  std::array<std::vector<float>, kSums> column_;  ///< sums over the window's rows, with margins
+  std::array<std::vector<float>, kSums> window_;  ///< sums over the window
 };
 
 }  // namespace floornav

@@ -85,6 +85,13 @@ Rectification::Rectification(const Pinhole& ideal, double baseline_m, const RawP
   cv::convertMaps(places_of(ideal, shrink, right), {}, right_.whole, right_.fraction, CV_16SC2);
 }
 
+Pose Rectification::T_left_ideal() const {
+  Pose T = Pose::Identity();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) T.linear()(row, column) = R_ideal_left_(column, row);
+  return T;
+}
+
 void Rectification::prepare(const cv::Mat& raw_left, const cv::Mat& raw_right, cv::Mat& left,
                             cv::Mat& right) const {
   for (const cv::Mat* image : {&raw_left, &raw_right}) {

@@ -6,6 +6,7 @@
 
 #include "drivers/bumblebee/stereo_calibration.hpp"
 #include "runtime/geometry/pinhole.hpp"
+#include "runtime/geometry/pose.hpp"
 
 namespace floornav {
 
@@ -34,6 +35,8 @@ class Rectification {
   /// The ideal left camera.
   [[nodiscard]] const Pinhole& camera() const { return camera_; }
   [[nodiscard]] double baseline_m() const { return baseline_m_; }
+  /// The ideal left camera, turned a little against the real one.
+  [[nodiscard]] Pose T_left_ideal() const;
   /// Rotates axes of the real left camera into those of the ideal one.
   [[nodiscard]] const cv::Matx33d& R_ideal_left() const { return R_ideal_left_; }
 

@@ -4,10 +4,13 @@
 #include <string>
 #include <vector>
 
-#include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 
+#include "drivers/bumblebee/coarse_matcher.hpp"
 #include "drivers/bumblebee/disparity_refinement.hpp"
+#include "drivers/bumblebee/disparity_smoothing.hpp"
+#include "drivers/bumblebee/roi_search.hpp"
+#include "runtime/geometry/parallel.hpp"
 #include "runtime/geometry/pinhole.hpp"
 #include "runtime/geometry/settings.hpp"
 
@@ -43,25 +46,39 @@ struct DisparityImage {
   std::vector<std::uint8_t> uncertainty;  ///< kSigmaUnit_px, 1 sigma; 0 only where the pixel is 0
 };
 
-/// Matches rectified pairs.
+/// Matches rectified pairs: coarsely, then refined by the images' gradients.
 class StereoMatcher {
  public:
-  /// Throws std::runtime_error where `nearest_m` asks for more disparities than the image is wide.
-  StereoMatcher(const StereoSettings& settings, const Pinhole& camera, double baseline_m);
+  /// `search`: of each row. Throws std::runtime_error where it asks for more disparities than the image is
+  /// wide.
+  StereoMatcher(const StereoSettings& settings, const Pinhole& camera, std::vector<RowSearch> search);
 
-  /// Rectified images of the camera's size, 8-bit grey.
-  void match(const cv::Mat& left, const cv::Mat& right, DisparityImage& image);
+  /// Rectified images of the camera's size, 8-bit grey; only seen_rows() are looked at.
+  void match(const cv::Mat& left, const cv::Mat& right, Parallel& parallel, DisparityImage& image);
+
+  /// The rows that get disparities.
+  [[nodiscard]] cv::Range rows() const { return rows_; }
+  /// Those and the ones around them that help.
+  [[nodiscard]] cv::Range seen_rows() const;
 
  private:
-  void match_coarsely(const cv::Mat& left, const cv::Mat& right);
-  void write(DisparityImage& image) const;
+  /// What a worker refines with.
+  struct Worker {
+    DisparitySmoothing smoothing;
+    DisparityRefinement refinement;
+  };
+
+  void refine(const cv::Mat1b& left, const cv::Mat1b& right, bool smooth, Parallel& parallel,
+              cv::Mat1f& disparity);
+  void enlarge(cv::Range rows);
+  void write(cv::Range rows, DisparityImage& image) const;
 
   StereoSettings settings_;
-  int shrink_ = 1;  ///< the coarse images are so many times smaller
-  cv::Ptr<cv::StereoMatcher> coarse_matcher_;
-  DisparityRefinement refinement_;
-  cv::Mat small_left_, small_right_, coarse_;
-  cv::Mat1f left_, right_, disparity_, sigma_;
+  cv::Size size_;
+  cv::Range rows_;
+  CoarseMatcher coarse_;
+  std::vector<Worker> workers_;
+  cv::Mat1f disparity_, smooth_, sigma_, small_sigma_;
 };
 
 }  // namespace floornav

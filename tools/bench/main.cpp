@@ -9,6 +9,7 @@
 #include "tools/bench/outliers_command.hpp"
 #include "tools/bench/perception_command.hpp"
 #include "tools/bench/planner_command.hpp"
+#include "tools/bench/stereo_command.hpp"
 #include "tools/bench/table1_command.hpp"
 
 int main(int argc, char** argv) {
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
     floornav::add_outliers_command(app);
     floornav::add_perception_command(app);
     floornav::add_planner_command(app);
+    floornav::add_stereo_command(app);
     floornav::add_table1_command(app);
     CLI11_PARSE(app, argc, argv);
   } catch (const std::exception& e) {

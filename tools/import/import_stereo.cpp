@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include "drivers/bumblebee/calibration/calibration_files.hpp"
-#include "drivers/bumblebee/rectification.hpp"
-#include "drivers/bumblebee/stereo_matcher.hpp"
+#include "drivers/bumblebee/stereo_pipeline.hpp"
 #include "tools/import/frame_place.hpp"
 #include "tools/import/image_file.hpp"
 #include "tools/import/import.hpp"
@@ -38,25 +37,18 @@ std::vector<PairOfFiles> pairs_of(const StereoImport& what) {
   return pairs;
 }
 
-/// Of the rectified left camera, which is turned a little against the real one.
-Pose rectified_pose(const FixedMounting& mounting, const Rectification& rectification) {
-  Pose T_left_ideal = Pose::Identity();
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      T_left_ideal.linear()(row, column) = rectification.R_ideal_left()(column, row);
-  return sensor_pose(mounting) * T_left_ideal;
-}
-
 }  // namespace
 
 ImportReport import_stereo(const StereoImport& what, const ImportTarget& target) {
   const Rectification rectification(read_stereo_calibration(what.calibration, what.calibration_block));
-  StereoMatcher matcher(what.matching, rectification.camera(), rectification.baseline_m());
+  const Pinhole& camera = rectification.camera();
+  StereoPipeline pipeline(what.matching, rectification,
+                          search_everywhere(camera, rectification.baseline_m(), what.matching.nearest_m));
+  const Pose T_body_sensor = sensor_pose(what.mounting) * rectification.T_left_ideal();
+  Serial serial;
   const std::vector<PairOfFiles> pairs = pairs_of(what);
   Recording recording(target.log, target.sensor);
   const auto total = static_cast<std::int64_t>(pairs.size());
-  cv::Mat left;
-  cv::Mat right;
   DisparityImage image;
   std::int64_t matched = 0;
   for (std::int64_t i = 0; i < total; ++i) {
@@ -64,22 +56,19 @@ ImportReport import_stereo(const StereoImport& what, const ImportTarget& target)
     const PairOfFiles& pair = pairs[static_cast<std::size_t>(i)];
     const std::int64_t utime_us = 1'000'000 + i * FixedMounting::period_us;
     try {
-      rectification.apply(read_image(pair.left, ImageForm::kGrey), read_image(pair.right, ImageForm::kGrey),
-                          left, right);
+      pipeline.match(read_image(pair.left, ImageForm::kGrey), read_image(pair.right, ImageForm::kGrey),
+                     serial, image);
     } catch (const std::runtime_error& error) {
       const std::string why = error.what();
       throw std::runtime_error(why.find(pair.left.filename().string()) != std::string::npos
                                    ? why
                                    : fmt::format("{}: {}", pair.left.string(), why));
     }
-    matcher.match(left, right, image);
     for (const std::uint16_t pixel : image.pixels) matched += pixel != 0 ? 1 : 0;
     recording.pose(utime_us, place_of(i, what.mounting));
-    recording.cloud(utime_us, image, rectification.camera(), rectification.baseline_m(),
-                    rectified_pose(what.mounting, rectification));
+    recording.cloud(utime_us, image, camera, rectification.baseline_m(), T_body_sensor);
   }
   recording.finish();
-  const Pinhole& camera = rectification.camera();
   const double pixels = static_cast<double>(total) * camera.width * camera.height;
   return {
       recording.clouds(),

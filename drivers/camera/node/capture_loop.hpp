@@ -185,7 +185,8 @@ template <class Frame>
 void CaptureLoop<Frame>::hand_over() {
   const std::scoped_lock lock(mutex_);
   if (waiting_count_ == waiting_.size()) drop_oldest();
-  filling_.dropped_before = std::exchange(dropped_, 0);
+  if (filling_.dropped_before > 0) status_.drops["frame superseded"] += filling_.dropped_before;
+  filling_.dropped_before += std::exchange(dropped_, 0);
   std::swap(waiting_[(first_waiting_ + waiting_count_) % waiting_.size()], filling_);
   ++waiting_count_;
   if (arrived_) arrived_();

@@ -28,8 +28,8 @@ class Device {
   virtual std::string open_stream() = 0;
   /// Waits for a frame of the open stream.
   virtual DeviceEvent wait(std::chrono::milliseconds timeout) = 0;
-  /// Copies the frame that wait() told of, using the memory of `frame` again. Why it cannot be used, or
-  /// nullptr.
+  /// Copies the frame that wait() told of, using the memory of `frame` again; its dropped_before becomes the
+  /// number of frames that the device itself passed over for it. Why it cannot be used, or nullptr.
   virtual const char* fetch(Frame& frame) = 0;
   virtual void close() = 0;
   /// Starts the library again, so that it looks for devices. Throws DeviceError.

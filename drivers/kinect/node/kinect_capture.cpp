@@ -39,6 +39,7 @@ class CheckedDevice final : public Device<CapturedFrame> {
     if (flaw != FrameFlaw::kNone) return name_of(flaw);
     lens_->undistort(frame.pixels);
     frame.stream = stream_;
+    frame.dropped_before = 0;
     frame.number = given.number;
     frame.stamp = given.stamp;
     frame.arrival = device_->arrival();

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "tests/devices/scene_step.hpp"
+
 namespace floornav {
 
 /// What a scene file begins with; the frames follow, one after the other, each width x height depths (uint16,
@@ -23,10 +25,7 @@ struct SceneHeader {
 
   /// The frame that is seen at step n = 0, 1, 2 ... of the camera.
   [[nodiscard]] std::int64_t frame_at(std::int64_t step) const {
-    if (there_and_back == 0 || frames < 2) return step % frames;
-    const std::int64_t cycle = 2 * (std::int64_t{frames} - 1);
-    const std::int64_t phase = step % cycle;
-    return phase < frames ? phase : cycle - phase;
+    return scene_frame_at(step, frames, there_and_back != 0);
   }
 };
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "tests/devices/kinect/control_block.hpp"
+#include "tests/devices/shared_block.hpp"
 
 namespace floornav {
 
@@ -12,24 +13,18 @@ namespace floornav {
 class VirtualKinect {
  public:
   /// Makes the control file; a plugged, faultless device that sees the scene.
-  VirtualKinect(std::filesystem::path control_file, const std::filesystem::path& scene_file);
+  VirtualKinect(const std::filesystem::path& control_file, const std::filesystem::path& scene_file);
   /// Commands those of an existing control file. Throws std::runtime_error where there is none.
-  explicit VirtualKinect(std::filesystem::path control_file);
-  ~VirtualKinect();
-  VirtualKinect(const VirtualKinect&) = delete;
-  VirtualKinect& operator=(const VirtualKinect&) = delete;
+  explicit VirtualKinect(const std::filesystem::path& control_file);
 
-  [[nodiscard]] const std::filesystem::path& control_file() const { return file_; }
-  ControlBlock* operator->() { return control_; }
+  [[nodiscard]] const std::filesystem::path& control_file() const { return control_.file(); }
+  ControlBlock* operator->() const { return &*control_; }
 
   void unplug(int device = 0) { control_->unplugged |= 1U << device; }
   void plug(int device = 0) { control_->unplugged &= ~(1U << device); }
 
  private:
-  void map(bool make);
-
-  std::filesystem::path file_;
-  ControlBlock* control_ = nullptr;
+  SharedBlock<ControlBlock> control_;
 };
 
 }  // namespace floornav

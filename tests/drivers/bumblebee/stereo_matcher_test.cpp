@@ -137,9 +137,10 @@ TEST_P(SlantedFloor, IsMatchedDenselyAndWithoutPixelLocking) {
   settings.nearest_m = 0.8;
   Pinhole camera;
   camera.fx = 500;
-  StereoMatcher matcher(settings, camera, 0.12);
+  StereoMatcher matcher(settings, camera, search_everywhere(camera, 0.12, settings.nearest_m));
   DisparityImage image;
-  matcher.match(pair.left, pair.right, image);
+  Serial serial;
+  matcher.match(pair.left, pair.right, serial, image);
   const Errors errors = errors_of(image, plane);
   RecordProperty("rms_px", std::to_string(errors.rms_px));
   std::printf("%s: %.1f %% valid, %.2f %% bad, rms %.3f px, locking %.3f px, error / sigma %.2f\n",
@@ -158,17 +159,16 @@ INSTANTIATE_TEST_SUITE_P(Matchers, SlantedFloor,
                                          Case{"block", 1}));
 
 TEST(StereoMatcher, FindsNothingWhereNothingCanBeMatched) {
-  StereoMatcher matcher({}, Pinhole{}, 0.12);
+  StereoMatcher matcher({}, Pinhole{}, search_everywhere(Pinhole{}, 0.12, 0.6));
   const cv::Mat plain(480, 640, CV_8UC1, cv::Scalar(100));
   DisparityImage image;
-  matcher.match(plain, plain, image);
+  Serial serial;
+  matcher.match(plain, plain, serial, image);
   EXPECT_EQ(std::count(image.pixels.begin(), image.pixels.end(), 0), 640 * 480);
 }
 
 TEST(StereoMatcher, RefusesARangeThatTheImageCannotHold) {
-  StereoSettings settings;
-  settings.nearest_m = 0.1;
-  EXPECT_THROW(StereoMatcher(settings, Pinhole{}, 0.24), std::runtime_error);
+  EXPECT_THROW(StereoMatcher({}, Pinhole{}, search_everywhere(Pinhole{}, 0.24, 0.1)), std::runtime_error);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "tests/devices/kinect/scene_file.hpp"
+#include "tests/devices/mapped_file.hpp"
 
 namespace floornav {
 
@@ -12,17 +13,15 @@ class Scene {
  public:
   /// Throws std::runtime_error for what is no scene file.
   explicit Scene(const char* path);
-  ~Scene();
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
 
-  [[nodiscard]] const SceneHeader& header() const { return *static_cast<const SceneHeader*>(memory_); }
+  [[nodiscard]] const SceneHeader& header() const {
+    return *reinterpret_cast<const SceneHeader*>(file_.bytes().data());
+  }
   /// Depths, row by row, counts of header().count_um.
   [[nodiscard]] std::span<const std::uint16_t> frame_at(std::int64_t step) const;
 
  private:
-  void* memory_ = nullptr;
-  std::size_t bytes_ = 0;
+  MappedFile file_;
 };
 
 }  // namespace floornav
