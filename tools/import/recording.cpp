@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "drivers/bumblebee/node/stereo_cloud.hpp"
 #include "floornav/depth_cloud_t.hpp"
 #include "floornav/pose_t.hpp"
 #include "lcmtypes/channels.hpp"
@@ -103,16 +104,14 @@ void Recording::cloud(std::int64_t utime_us, const DepthImage& image, const Pinh
 
 void Recording::cloud(std::int64_t utime_us, const DisparityImage& image, const Pinhole& camera,
                       double baseline_m, const Pose& T_body_sensor) {
-  constexpr float kUsualSigma_px = 0.1F;  // for whoever does not read the uncertainties
-  depth_cloud_t message = begin_cloud(utime_us, image.width, image.height, camera, T_body_sensor);
-  message.baseline = static_cast<float>(baseline_m);
-  message.disparity_sigma = kUsualSigma_px;
-  message.meaning = depth_cloud_t::DISPARITY;
-  message.scale = DisparityImage::kUnit_px;
-  message.uncertainty_scale = DisparityImage::kSigmaUnit_px;
-  message.uncertainty = image.uncertainty;
-  message.uncertainty_size = static_cast<std::int32_t>(image.uncertainty.size());
-  pack_pixels(image.pixels, message);
+  const depth_cloud_t header = begin_cloud(utime_us, image.width, image.height, camera, T_body_sensor);
+  depth_cloud_t message = stereo_cloud(camera, baseline_m, T_body_sensor);
+  message.utime = header.utime;
+  message.source = header.source;
+  message.session = header.session;
+  message.seq = header.seq;
+  message.frame = header.frame;
+  set_disparities(image, message);
   write(message);
 }
 

@@ -377,8 +377,8 @@ void FirewireCamera::close() {
 
 /// Of a camera that is gone the library keeps the ring and its descriptor.
 void FirewireCamera::release_ring() {
-  if (ring_ != nullptr) ::munmap(ring_, ring_bytes_);
   ::close(ring_fd_);
+  if (ring_ != nullptr) ::munmap(ring_, ring_bytes_);
 }
 
 }  // namespace floornav

@@ -13,7 +13,6 @@ namespace floornav {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(30);
-constexpr int kFrames = 6;
 constexpr int kPeriod_us = 20'000;
 
 /// The bus opens its control file once in a process, so all rigs share one place for it.
@@ -24,7 +23,8 @@ const std::filesystem::path& shared_folder() {
 
 void write_scene(StereoRig& rig, const std::filesystem::path& file) {
   EyeSceneWriter writer(file, rig, kPeriod_us, false);
-  for (int frame = 0; frame < kFrames; ++frame) writer.add(rig.see(test_room(), test_mounting(), frame));
+  const int frames = rig.spec().ideal.width > 640 ? 2 : 3;
+  for (int frame = 0; frame < frames; ++frame) writer.add(rig.see(test_room(), test_mounting(), frame));
   writer.close();
 }
 

@@ -300,7 +300,7 @@ TEST_F(BumblebeeFaults, ABlackImageIsPublishedAsNothingSeen) {
 }
 
 TEST_F(BumblebeeFaults, ASlowConsumerGetsTheNewestFrameAndNobodyIsBlamed) {
-  rig.settings.frames_per_second = 60;
+  rig.settings.frames_per_second = 50;
   rig.settings.buffers = 4;
   rig.start();
   ASSERT_TRUE(rig.wait_for_clouds(10));

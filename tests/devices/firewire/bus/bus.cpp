@@ -141,6 +141,7 @@ void FirewireBus::unplug() {
   for (const auto& [descriptor, client] : clients_) {
     if (client->node != kCamera) continue;
     client->gone = true;
+    if (client->receiver) client->receiver->abandon();
     ::shutdown(client->peer, SHUT_RDWR);
   }
 }

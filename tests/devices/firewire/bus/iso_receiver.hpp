@@ -30,6 +30,8 @@ class IsoReceiver {
   void queue(std::uint64_t data, std::vector<std::uint32_t> packets);
   void start();
   void stop();
+  /// Nothing more is received; stop() is still to be called.
+  void abandon() { running_ = false; }
 
  private:
   struct Buffer {
