@@ -98,8 +98,8 @@ TEST(EyeImages, AreWithoutTheMosaic) {
 
 class SearchedRows : public testing::TestWithParam<unsigned> {};
 
-/// Every point of the region that the camera sees lies in its row's range; rows and ranges are no wider than
-/// such points make them.
+/// Every point of the region that the camera sees lies in its row's range, and the ranges together are little
+/// wider than random points make them.
 TEST_P(SearchedRows, HoldWhatTheRegionShows) {
   std::mt19937 random(GetParam());
   const auto between = [&](double low, double high) {
@@ -128,14 +128,13 @@ TEST_P(SearchedRows, HoldWhatTheRegionShows) {
     EXPECT_GE(disparity, rows[row].least_px - 0.5F);
     EXPECT_LE(disparity, rows[row].most_px + 0.5F);
   }
-  for (std::size_t row = 2; row + 2 < rows.size(); ++row) {
-    RowSearch around = seen[row];
-    for (const std::size_t next : {row - 2, row - 1, row + 1, row + 2}) around.add(seen[next]);
-    if (!rows[row].empty() && rows[row].most_px - rows[row].least_px > 2) {
-      EXPECT_FALSE(around.empty()) << "row " << row;
-      EXPECT_LT(around.least_px, rows[row].least_px + 12) << "row " << row;
-    }
+  float claimed = 0;
+  float shown = 0;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    claimed += rows[row].empty() ? 0 : rows[row].most_px - rows[row].least_px;
+    shown += seen[row].empty() ? 0 : seen[row].most_px - seen[row].least_px;
   }
+  EXPECT_LT(claimed, 1.3F * shown);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, SearchedRows, testing::Range(0U, 4U));

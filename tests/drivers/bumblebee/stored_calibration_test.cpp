@@ -55,9 +55,9 @@ TEST(SplineWarp, IsTheBSplineOfItsCoefficients) {
 
 std::string line_warp() {
   std::string text = "Warp 4 4";
-  for (int i = 0; i < 16; ++i) text += " " + std::to_string(i / 4 - 1);
-  for (int i = 0; i < 16; ++i) text += " " + std::to_string(i % 4 - 1);
-  return text + "\n";
+  for (int i = 0; i < 16; ++i) text.append(" ").append(std::to_string(i / 4 - 1));
+  for (int i = 0; i < 16; ++i) text.append(" ").append(std::to_string(i % 4 - 1));
+  return text.append("\n");
 }
 
 TEST(StoredCalibration, GivesBackWhatWasWritten) {
@@ -107,7 +107,7 @@ TEST(StoredCalibration, OfRandomTextNeverCrashes) {
   const std::string letters = "FocalLengthImageCenterBaseLineWarp 0123456789.-e#\n\"\xff";
   for (int i = 0; i < 3000; ++i) {
     std::string text = i % 2 == 0 ? "FocalLength 1 1 ImageCenter .5 .5 BaseLine .1 Warp 4 4 " : "";
-    for (unsigned n = random() % 200; n > 0; --n) text += letters[random() % letters.size()];
+    for (auto n = random() % 200; n > 0; --n) text += letters[random() % letters.size()];
     try {
       (void)parse_stored_calibration(text);
     } catch (const std::runtime_error&) {
