@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "perception/cell_kernel.hpp"
+#include "perception/cell_sections.hpp"
 #include "perception/cell_window.hpp"
 #include "perception/evidence.hpp"
 #include "perception/roi_cloud.hpp"
@@ -13,16 +15,16 @@
 
 namespace floornav {
 
-/// One point as its cell sees it. Heights: z in the local world frame, m.
+/// One point as its cell sees it; see PlacedPoints.
 struct CellPoint {
   std::int16_t surfel;  ///< index into FloorEvidence::surfels, -1: on no plane
-  float z_m;            ///< of the point moved along its ray onto its plane; as measured where it has none
-  float rise_m;         ///< vertical distance of the measured surface above the plane; 0 without a plane
-  float var_m2;         ///< of rise_m, or of z_m without a plane, by eq. (3) / (4)
-  float common_m2;      ///< variance that the cell's points have in common: their mean keeps it
+  float z_m;
+  float rise_m;
+  float var_m2;
+  float common_m2;
 };
 
-/// The points of the frame sorted by cell; within a cell in the cloud's order.
+/// Some of the frame's points sorted by cell; within a cell in the cloud's order.
 struct CellPoints {
   std::vector<CellPoint> points;
   std::vector<std::int32_t> cell_end;  ///< a cell of the window: end of its points
@@ -37,6 +39,7 @@ struct CellPoints {
 /// What was found in one section.
 struct SectionResult {
   bool done = false;
+  std::int64_t outliers = 0;
   std::vector<SectionPlane> planes;
   std::vector<Surfel> surfels;    ///< of the planes
   std::int16_t first_surfel = 0;  ///< the surfel of planes[k] is first_surfel + k
@@ -48,8 +51,15 @@ class CellSorter {
  public:
   explicit CellSorter(const RoiSettings& roi) : roughness_m_(static_cast<float>(roi.roughness_m)) {}
 
+  /// Begins a frame.
+  void begin(const RoiCloud& cloud) { placed_.resize(cloud.size()); }
+  /// Places the points of the sections [first, end) of which the planes are known.
+  void place(const RoiCloud& cloud, std::span<const std::int16_t> label,
+             std::span<const SectionResult> sections, int first, int end, const SensorView& view,
+             const CellWindow& window, Parallel& parallel);
+  /// Sorts the placed points of the sections [0, end) that lie in cells near the robot, or in the others.
   void sort(const RoiCloud& cloud, std::span<const std::int16_t> label,
-            std::span<const SectionResult> sections, const SensorView& view, const CellWindow& window,
+            std::span<const SectionResult> sections, int end, const CellSections& cells, bool is_near,
             Parallel& parallel, CellPoints& out);
 
  private:
@@ -58,22 +68,18 @@ class CellSorter {
     int section;
     std::int32_t begin, end;
   };
-  /// A plane as the cells need it.
-  struct PlaneInWorld {
-    InverseDepthPlane plane;
-    Eigen::Vector3f normal;  ///< sensor frame
-    float upright;           ///< z of the normal in the world frame
+  /// Points that one worker sorts: [begin, end).
+  struct Share {
+    std::int32_t begin, end;
+    std::vector<std::int32_t> next;  ///< a cell: number of points, then the place of the next one
   };
-  void cut_pieces(const RoiCloud& cloud, std::span<const SectionResult> sections);
-  void find_planes(std::span<const SectionResult> sections, const SensorView& view);
-  void place_points(const RoiCloud& cloud, std::span<const std::int16_t> label, const Piece& piece,
-                    std::int16_t first_surfel, const SensorView& view, const CellWindow& window);
+  void cut_pieces(const RoiCloud& cloud, int first, int end);
 
   float roughness_m_;
   std::vector<Piece> pieces_;
-  std::vector<PlaneInWorld> planes_;  ///< a surfel
-  std::vector<std::int32_t> cell_;    ///< a point of the cloud: its cell, -1 none
-  std::vector<CellPoint> placed_;     ///< a point of the cloud
+  PlanesInWorld planes_;  ///< a surfel
+  PlacedPoints placed_;
+  std::vector<Share> shares_;
 };
 
 }  // namespace floornav

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "perception/compromise.hpp"
 #include "runtime/geometry/lattice.hpp"
 #include "runtime/geometry/pose.hpp"
 
@@ -41,6 +42,7 @@ struct SectionReport {
   bool done = false;     ///< false: skipped, carries no evidence
   std::int16_t age = 0;  ///< frames since it was last done
   std::int32_t points = 0;
+  bool later = false;  ///< not known yet: a later part of the frame tells
 };
 
 /// What became of a frame's pixels.
@@ -60,6 +62,7 @@ struct FloorEvidence {
   Pose T_body_sensor = Pose::Identity();
   Lattice lattice;
   PixelCounts pixels;
+  Compromise compromise;  ///< what the frame gave up
   std::vector<SectionReport> sections;
   std::vector<Surfel> surfels;
   std::vector<CellEvidence> cells;

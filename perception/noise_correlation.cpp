@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int32_t kFarthest_px = 32;
 constexpr std::int32_t kIndependent_px = 20;  ///< from here on pixels are taken to be independent
-constexpr std::int32_t kStride = 8;           ///< every n-th point begins pairs
+constexpr std::int32_t kStride = 32;          ///< every n-th point begins pairs
 constexpr std::int64_t kLeastPairs = 1000;    ///< at each distance
 constexpr double kLeastCorrelation = 0.05;    ///< less is the accident of this frame
 

@@ -1,5 +1,6 @@
 #include "perception/outliers.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace floornav {
@@ -9,6 +10,17 @@ namespace {
 /// Up to so many points are compared with each other faster than an image is filled.
 constexpr std::size_t kFewPoints = 64;
 
+/// In four streams: one sum waits for itself at every step.
+template <class Value>
+double sum_over(const std::vector<float>& values, Value value) {
+  std::array<double, 4> sums{};
+  std::size_t i = 0;
+  for (; i + sums.size() <= values.size(); i += sums.size())
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += value(static_cast<double>(values[i + k]));
+  for (; i < values.size(); ++i) sums[0] += value(static_cast<double>(values[i]));
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
 }  // namespace
 
 std::int64_t OutlierRemover::remove(const ImagePoints& cloud, Parallel& parallel,
@@ -17,14 +29,9 @@ std::int64_t OutlierRemover::remove(const ImagePoints& cloud, Parallel& parallel
   find_mean_distances(cloud, parallel);
 
   const auto count = static_cast<double>(cloud.points.size());
-  double sum = 0.0;
-  for (const float mean : mean_m_) sum += static_cast<double>(mean);
-  const double mu_global = sum / count;
-  double squares = 0.0;
-  for (const float mean : mean_m_) {
-    const double difference = static_cast<double>(mean) - mu_global;
-    squares += difference * difference;
-  }
+  const double mu_global = sum_over(mean_m_, [](double mean) { return mean; }) / count;
+  const double squares =
+      sum_over(mean_m_, [mu_global](double mean) { return (mean - mu_global) * (mean - mu_global); });
   const double limit = settings_.epsilon * std::sqrt(squares / count);
 
   std::int64_t outliers = 0;

@@ -9,19 +9,20 @@ void PixelBlocks::begin(const Pinhole& camera, const PlanePool& pool) {
   columns_ = static_cast<std::size_t>(per_row(camera));
   const auto rows = static_cast<std::size_t>((camera.height + kSide_px - 1) / kSide_px);
   for (auto* counts : {&points_, &inliers_, &patch_}) counts->resize(columns_ * rows);
-  begin_ = pool.size() == 0 ? 0 : static_cast<std::size_t>(pool.block.front()) / columns_ * columns_;
-  end_ = pool.size() == 0 ? 0 : (static_cast<std::size_t>(pool.block.back()) / columns_ + 1) * columns_;
+  begin_ = pool.size() == 0 ? 0 : static_cast<std::size_t>(pool.block[0]) / columns_ * columns_;
+  end_ = pool.size() == 0 ? 0
+                          : (static_cast<std::size_t>(pool.block[pool.size() - 1]) / columns_ + 1) * columns_;
   std::fill(points_.begin() + static_cast<std::ptrdiff_t>(begin_),
             points_.begin() + static_cast<std::ptrdiff_t>(end_), 0);
-  for (const std::int32_t block : pool.block) ++points_[static_cast<std::size_t>(block)];
+  for (const std::int32_t block : std::span(pool.block).first(pool.size()))
+    ++points_[static_cast<std::size_t>(block)];
 }
 
-void PixelBlocks::count(const PlanePool& pool, const InverseDepthPlane& plane, float threshold_sigmas) {
+void PixelBlocks::count(const PlanePool& pool, std::span<const float> distance, float threshold_sigmas) {
   std::fill(inliers_.begin() + static_cast<std::ptrdiff_t>(begin_),
             inliers_.begin() + static_cast<std::ptrdiff_t>(end_), 0);
   for (std::size_t i = 0; i < pool.size(); ++i)
-    inliers_[static_cast<std::size_t>(pool.block[i])] +=
-        std::abs(pool.residual(i, plane)) <= threshold_sigmas ? 1 : 0;
+    inliers_[static_cast<std::size_t>(pool.block[i])] += distance[i] <= threshold_sigmas ? 1 : 0;
 }
 
 void PixelBlocks::keep_largest_patch() {
@@ -38,6 +39,12 @@ void PixelBlocks::keep_largest_patch() {
   }
   for (std::size_t block = begin_; block < end_; ++block)
     if (patch_[block] != best) inliers_[block] = 0;
+}
+
+void PixelBlocks::judge() {
+  state_.resize(points_.size());
+  for (std::size_t block = begin_; block < end_; ++block)
+    state_[block] = (owns(block) ? kOwned : 0) | (2 * inliers_[block] >= points_[block] ? kMostlyOwned : 0);
 }
 
 /// Numbers the owned blocks that hang together with `first`; returns their inliers.

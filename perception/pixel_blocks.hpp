@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "perception/inverse_depth_plane.hpp"
 #include "perception/plane_pool.hpp"
 #include "runtime/geometry/pinhole.hpp"
 
@@ -21,18 +21,18 @@ class PixelBlocks {
 
   /// Begins a section with the pool's points.
   void begin(const Pinhole& camera, const PlanePool& pool);
-  /// Counts the plane's inliers among the pool's points.
-  void count(const PlanePool& pool, const InverseDepthPlane& plane, float threshold_sigmas);
+  /// Counts the plane's inliers among the pool's points: those at most `threshold_sigmas` off it.
+  void count(const PlanePool& pool, std::span<const float> distance, float threshold_sigmas);
   /// Gives up all owned blocks but the connected patch with most inliers.
   void keep_largest_patch();
 
-  /// Share of the inliers among the block's points is enough to own it.
-  [[nodiscard]] bool owned(std::int32_t block) const { return owns(static_cast<std::size_t>(block)); }
-  /// The plane holds most of the block's points.
-  [[nodiscard]] bool mostly_owned(std::int32_t block) const {
-    const auto b = static_cast<std::size_t>(block);
-    return 2 * inliers_[b] >= points_[b];
-  }
+  /// Settles the states.
+  void judge();
+
+  static constexpr std::int32_t kOwned = 1;        ///< the inliers' share of the block's points is fair
+  static constexpr std::int32_t kMostlyOwned = 2;  ///< the plane holds most of the block's points
+  /// Of each block: the sum of what holds of it.
+  [[nodiscard]] std::span<const std::int32_t> states() const { return state_; }
 
  private:
   [[nodiscard]] bool owns(std::size_t block) const {
@@ -41,8 +41,8 @@ class PixelBlocks {
   std::int32_t flood(std::size_t first, std::int32_t patch);
 
   std::size_t columns_ = 1;
-  std::size_t begin_ = 0, end_ = 0;                     ///< rows of blocks that hold the section's points
-  std::vector<std::int32_t> points_, inliers_, patch_;  ///< a block
+  std::size_t begin_ = 0, end_ = 0;  ///< rows of blocks that hold the section's points
+  std::vector<std::int32_t> points_, inliers_, patch_, state_;  ///< a block
   std::vector<std::size_t> open_;  ///< blocks of the patch in hand, neighbours not yet seen
 };
 

@@ -17,7 +17,7 @@ constexpr float kMinHypotheses =
     50.0F;  ///< the best of several planes that compete is found by comparing enough
 constexpr float kWorthRefining = 0.8F;  ///< of the best gain so far
 constexpr int kLocalRefinements = 2;
-constexpr int kFinalRefinements = 2;
+constexpr int kFinalRefinements = 1;
 
 /// Mean of a few points that follow each other: if they are on a plane so is their mean, with less noise. So
 /// planes a little apart compete more clearly.

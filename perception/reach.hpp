@@ -20,6 +20,9 @@ class Reach {
     return std::abs(height_m) <= step_m_ + slope_ * distance_m + slack_m;
   }
 
+  [[nodiscard]] float step_m() const { return step_m_; }
+  [[nodiscard]] float slope() const { return slope_; }  ///< vertical metres a horizontal one
+
  private:
   float step_m_;
   float slope_;

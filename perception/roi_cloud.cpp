@@ -18,24 +18,25 @@ int band_count(const DepthFrame& frame) {
 
 }  // namespace
 
-PixelCounts RoiClipper::clip(const DepthFrame& frame, const Measurer& measure, const SensorView& view,
-                             Parallel& parallel, RoiCloud& cloud) {
+PixelCounts RoiClipper::clip(const DepthFrame& frame, const SensorView& view, Parallel& parallel,
+                             RoiCloud& cloud) {
   const int bands = band_count(frame);
   bands_.resize(static_cast<std::size_t>(bands));
-  section_of_pixel_.resize(frame.pixels.size());
+  image_.resize(frame.camera.width, frame.camera.height);
+  section_of_pixel_.resize(image_.inverse_depth.size());
   find_rays(frame.camera);
   const auto rows_of = [&](int band) {
     return std::pair{band * kRowsPerBand, std::min((band + 1) * kRowsPerBand, frame.camera.height)};
   };
   const auto sort = [&](int band, int) {
     const auto [first, end] = rows_of(band);
-    sort_band(measure, view, first, end, bands_[static_cast<std::size_t>(band)]);
+    sort_band(frame, view, first, end, bands_[static_cast<std::size_t>(band)]);
   };
   parallel.run(bands, std::ref(sort));
   lay_out(cloud);
   const auto fill = [&](int band, int) {
     const auto [first, end] = rows_of(band);
-    fill_band(measure, first, end, bands_[static_cast<std::size_t>(band)], cloud);
+    fill_band(first, end, bands_[static_cast<std::size_t>(band)], cloud);
   };
   parallel.run(bands, std::ref(fill));
   PixelCounts total;
@@ -50,51 +51,41 @@ PixelCounts RoiClipper::clip(const DepthFrame& frame, const Measurer& measure, c
 }
 
 void RoiClipper::find_rays(const Pinhole& camera) {
-  ray_x_.resize(static_cast<std::size_t>(camera.width));
+  ray_x_.assign(image_.stride, 0.0F);
   ray_y_.resize(static_cast<std::size_t>(camera.height));
-  for (std::size_t u = 0; u < ray_x_.size(); ++u) ray_x_[u] = camera.ray(static_cast<float>(u), 0.0F).x();
+  for (std::size_t u = 0; u < static_cast<std::size_t>(camera.width); ++u)
+    ray_x_[u] = camera.ray(static_cast<float>(u), 0.0F).x();
   for (std::size_t v = 0; v < ray_y_.size(); ++v) ray_y_[v] = camera.ray(0.0F, static_cast<float>(v)).y();
 }
 
-void RoiClipper::sort_band(const Measurer& measure, const SensorView& view, int first_row, int end_row,
+void RoiClipper::sort_band(const DepthFrame& frame, const SensorView& view, int first_row, int end_row,
                            Band& band) {
   band.counts = {};
   band.next.assign(static_cast<std::size_t>(grid_.count()), 0);
   const Eigen::Matrix3f R = view.T_body_sensor.linear().cast<float>();
-  const Eigen::Vector3f origin = view.T_body_sensor.translation().cast<float>();
-  const auto z_min = static_cast<float>(settings_.z_min_m);
-  const auto z_max = static_cast<float>(settings_.z_max_m);
-  const float max_inverse_depth = 1.0F / static_cast<float>(settings_.min_range_m);
-  const auto max_sigma_z = static_cast<float>(settings_.max_sigma_z_m);
-  const std::size_t width = ray_x_.size();
+  const MeasurementModel model(frame, static_cast<float>(settings_.roughness_m));
+  RowRegion region;
+  region.ray_x = ray_x_.data();
+  region.per_ray_x = R.col(0);
+  region.origin = view.T_body_sensor.translation().cast<float>();
+  region.max_inverse_depth = 1.0F / static_cast<float>(settings_.min_range_m);
+  region.max_sigma_z = static_cast<float>(settings_.max_sigma_z_m);
+  region.z_min = static_cast<float>(settings_.z_min_m);
+  region.z_max = static_cast<float>(settings_.z_max_m);
   for (int row = first_row; row < end_row; ++row) {
-    std::size_t pixel = static_cast<std::size_t>(row) * width;
-    const Eigen::Vector3f of_row = R.col(1) * ray_y_[static_cast<std::size_t>(row)] + R.col(2);
-    for (std::size_t column = 0; column < width; ++column, ++pixel) {
-      section_of_pixel_[pixel] = -1;
-      const Measurement m = measure(pixel);
-      if (!m) {
-        ++band.counts.no_measurement;
-        continue;
-      }
-      const float depth = 1.0F / m.inverse_depth;
-      if (m.inverse_depth > max_inverse_depth) {
-        ++band.counts.too_near;
-      } else if (!(depth * depth <= max_sigma_z * m.certainty)) {
-        ++band.counts.too_uncertain;
-      } else {
-        const Eigen::Vector3f p = origin + depth * (R.col(0) * ray_x_[column] + of_row);
-        const int section = p.z() >= z_min && p.z() <= z_max ? grid_.at(p.x(), p.y()) : -1;
-        section_of_pixel_[pixel] = static_cast<std::int16_t>(section);
-        if (section < 0) {
-          ++band.counts.outside_roi;
-        } else {
-          ++band.counts.in_roi;
-          ++band.next[static_cast<std::size_t>(section)];
-        }
-      }
-    }
+    region.of_row = R.col(1) * ray_y_[static_cast<std::size_t>(row)] + R.col(2);
+    std::int16_t* const sections = section_of_pixel_.data() + image_.row_begin(row);
+    measure_row(frame, model, row, image_);
+    const RowCounts counts = find_sections(image_, row, region, grid_, sections);
+    const auto padding = static_cast<std::int64_t>(image_.stride) - image_.width;
+    band.counts.no_measurement += counts.no_measurement - padding;
+    band.counts.too_near += counts.too_near;
+    band.counts.too_uncertain += counts.too_uncertain;
+    band.counts.outside_roi += counts.outside_roi;
+    for (int column = 0; column < image_.width; ++column)
+      if (sections[column] >= 0) ++band.next[static_cast<std::size_t>(sections[column])];
   }
+  for (const std::int32_t points : band.next) band.counts.in_roi += points;
 }
 
 /// Turns the bands' numbers of points into places: by section, then by band.
@@ -117,29 +108,29 @@ void RoiClipper::lay_out(RoiCloud& cloud) {
   cloud.block.resize(size);
 }
 
-void RoiClipper::fill_band(const Measurer& measure, int first_row, int end_row, Band& band,
-                           RoiCloud& cloud) const {
-  const std::size_t width = ray_x_.size();
+void RoiClipper::fill_band(int first_row, int end_row, Band& band, RoiCloud& cloud) const {
+  const auto width = static_cast<std::size_t>(image_.width);
   const auto blocks_per_row =
       static_cast<std::int32_t>((width + PixelBlocks::kSide_px - 1) / PixelBlocks::kSide_px);
   for (int row = first_row; row < end_row; ++row) {
-    std::size_t pixel = static_cast<std::size_t>(row) * width;
+    const std::size_t first = image_.row_begin(row);
     const float ray_y = ray_y_[static_cast<std::size_t>(row)];
     const std::int32_t first_block = row / PixelBlocks::kSide_px * blocks_per_row;
-    for (std::size_t column = 0; column < width; ++column, ++pixel) {
-      const int section = section_of_pixel_[pixel];
+    const std::int32_t first_pixel = row * image_.width;
+    for (std::size_t column = 0; column < width; ++column) {
+      const int section = section_of_pixel_[first + column];
       if (section < 0) continue;
       const auto i = static_cast<std::size_t>(band.next[static_cast<std::size_t>(section)]++);
-      const Measurement m = measure(pixel);
-      const float depth = 1.0F / m.inverse_depth;
+      const float inverse_depth = image_.inverse_depth[first + column];
+      const float depth = 1.0F / inverse_depth;
       cloud.x[i] = ray_x_[column] * depth;
       cloud.y[i] = ray_y * depth;
       cloud.z[i] = depth;
       cloud.ray_x[i] = ray_x_[column];
       cloud.ray_y[i] = ray_y;
-      cloud.inverse_depth[i] = m.inverse_depth;
-      cloud.certainty[i] = m.certainty;
-      cloud.pixel[i] = static_cast<std::int32_t>(pixel);
+      cloud.inverse_depth[i] = inverse_depth;
+      cloud.certainty[i] = image_.certainty[first + column];
+      cloud.pixel[i] = first_pixel + static_cast<std::int32_t>(column);
       cloud.block[i] = first_block + static_cast<std::int32_t>(column) / PixelBlocks::kSide_px;
     }
   }

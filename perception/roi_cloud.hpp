@@ -5,7 +5,8 @@
 
 #include "perception/depth_frame.hpp"
 #include "perception/evidence.hpp"
-#include "perception/measurement.hpp"
+#include "perception/measured_image.hpp"
+#include "perception/pixel_kernel.hpp"
 #include "perception/sections.hpp"
 #include "perception/sensor_view.hpp"
 #include "perception/settings.hpp"
@@ -40,8 +41,10 @@ class RoiClipper {
   RoiClipper(const RoiSettings& settings, const SectionGrid& grid) : settings_(settings), grid_(grid) {}
 
   /// Fills `cloud`; tells what became of the pixels. Bands of rows are independent work.
-  PixelCounts clip(const DepthFrame& frame, const Measurer& measure, const SensorView& view,
-                   Parallel& parallel, RoiCloud& cloud);
+  PixelCounts clip(const DepthFrame& frame, const SensorView& view, Parallel& parallel, RoiCloud& cloud);
+
+  /// All that the last frame measured, inside the ROI or not.
+  [[nodiscard]] const MeasuredImage& image() const { return image_; }
 
  private:
   struct Band {
@@ -49,15 +52,16 @@ class RoiClipper {
     std::vector<std::int32_t> next;  ///< a section: number of points, then the place of the next one
   };
   void find_rays(const Pinhole& camera);
-  void sort_band(const Measurer& measure, const SensorView& view, int first_row, int end_row, Band& band);
+  void sort_band(const DepthFrame& frame, const SensorView& view, int first_row, int end_row, Band& band);
   void lay_out(RoiCloud& cloud);
-  void fill_band(const Measurer& measure, int first_row, int end_row, Band& band, RoiCloud& cloud) const;
+  void fill_band(int first_row, int end_row, Band& band, RoiCloud& cloud) const;
 
   RoiSettings settings_;
   SectionGrid grid_;
+  MeasuredImage image_;
   std::vector<Band> bands_;
-  std::vector<float> ray_x_, ray_y_;  ///< of a column, of a row
-  std::vector<std::int16_t> section_of_pixel_;
+  std::vector<float> ray_x_, ray_y_;            ///< of a column (padded as the image), of a row
+  std::vector<std::int16_t> section_of_pixel_;  ///< a place of the image
 };
 
 }  // namespace floornav

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "perception/plane_kernel.hpp"
+#include "perception/pool_kernel.hpp"
 
 namespace floornav {
 
@@ -36,68 +37,48 @@ struct SectionPlaneFinder::Search {
   [[nodiscard]] float threshold() const { return static_cast<float>(finder.settings_.threshold_sigmas); }
 
   void fill_pool(int section) {
-    PlanePool& pool = scratch.pool;
-    pool.resize(static_cast<std::size_t>(cloud.section_size(section)));
-    std::size_t end = 0;
-    for (std::int32_t p = cloud.section_begin(section);
-         p < cloud.section_end[static_cast<std::size_t>(section)]; ++p) {
-      const auto i = static_cast<std::size_t>(p);
-      if (label[i] == kOutlier) continue;
-      label[i] = kNoPlane;
-      pool.ray_x[end] = cloud.ray_x[i];
-      pool.ray_y[end] = cloud.ray_y[i];
-      pool.inverse_depth[end] = cloud.inverse_depth[i];
-      pool.certainty[end] = cloud.certainty[i];
-      pool.point[end] = p;
-      pool.block[end] = cloud.block[i];
-      ++end;
-    }
-    pool.resize(end);
-    scratch.blocks.begin(view.camera, pool);
+    const auto begin = static_cast<std::size_t>(cloud.section_begin(section));
+    const auto size = static_cast<std::size_t>(cloud.section_size(section));
+    scratch.claims.resize(size);
+    for (std::size_t i = 0; i < size; ++i)
+      scratch.claims[i] = label[begin + i] == kOutlier ? Claim::kNoise : Claim::kNone;
+    take_points({cloud.ray_x.data() + begin, cloud.ray_y.data() + begin, cloud.inverse_depth.data() + begin,
+                 cloud.certainty.data() + begin, cloud.block.data() + begin, nullptr,
+                 static_cast<std::int32_t>(begin), size},
+                scratch.claims, Claim::kNone, scratch.pool);
+    scratch.blocks.begin(view.camera, scratch.pool);
   }
 
   /// Points where floor can be that the robot can come to: desks and walls do not compete with the floor.
   void fill_floor_pool() {
-    const Eigen::Matrix3f R = view.T_world_sensor.linear().cast<float>();
     const Eigen::Vector3f sensor =
         (view.T_world_sensor.translation() - view.T_world_body.translation()).cast<float>();
-    const PlanePool& pool = scratch.pool;
-    scratch.floor_pool.resize(pool.size());
-    std::size_t end = 0;
-    for (std::size_t i = 0; i < pool.size(); ++i) {
-      const Eigen::Vector3f ray = R * Eigen::Vector3f(pool.ray_x[i], pool.ray_y[i], 1.0F);
-      const float depth = 1.0F / pool.inverse_depth[i];
-      const Eigen::Vector3f p = sensor + depth * ray;
-      const float sigma_height = depth * depth / pool.certainty[i] * std::abs(ray.z());
-      if (finder.reach_.holds(p.head<2>().norm(), p.z(), kReachSlack_m + 3.0F * sigma_height))
-        scratch.floor_pool.set(end++, pool, i);
-    }
-    scratch.floor_pool.resize(end);
+    scratch.claims.resize(scratch.pool.size());
+    find_reachable(scratch.pool, view.T_world_sensor.linear().cast<float>(), sensor, finder.reach_,
+                   kReachSlack_m, scratch.claims);
+    take_points(source_of(scratch.pool), scratch.claims, Claim::kPoint, scratch.floor_pool);
   }
 
-  [[nodiscard]] bool claims(const PlanePool& pool, std::size_t i, const InverseDepthPlane& plane) const {
-    return std::abs(pool.residual(i, plane)) <= threshold() && scratch.blocks.owned(pool.block[i]);
-  }
-
-  /// Where the plane owns its points. The floor may lie in several patches, with obstacles between them; any
-  /// other plane is one patch.
-  void count_blocks(const PlanePool& pool, const InverseDepthPlane& plane, bool is_floor) {
-    scratch.blocks.count(pool, plane, threshold());
+  /// Finds the points that the plane owns; returns how many. The floor may lie in several patches, with
+  /// obstacles between them; any other plane is one patch.
+  int claim_points(const PlanePool& pool, const InverseDepthPlane& plane, bool is_floor) {
+    scratch.distance.resize(pool.size());
+    scratch.claims.resize(pool.size());
+    find_distances(pool, plane, scratch.distance);
+    scratch.blocks.count(pool, scratch.distance, threshold());
     if (!is_floor) scratch.blocks.keep_largest_patch();
+    scratch.blocks.judge();
+    return find_claims(pool, scratch.distance, threshold(), kNoiseBand, scratch.blocks.states(),
+                       scratch.claims);
   }
 
   /// Refines on the points that the plane owns; nothing where they are too few.
   std::optional<SectionPlane> settle(const PlanePool& pool, const InverseDepthPlane& found, bool is_floor) {
-    count_blocks(pool, found, is_floor);
-    scratch.claimed.resize(pool.size());
-    int points = 0;
-    for (std::size_t i = 0; i < pool.size(); ++i) {
-      const bool claimed = claims(pool, i, found);
-      scratch.claimed[i] = claimed ? 1.0F : 0.0F;
-      points += claimed ? 1 : 0;
-    }
-    if (points < finder.settings_.min_points) return std::nullopt;
-    const PlaneFit fit = fit_inliers(pool, found, threshold(), scratch.claimed);
+    if (claim_points(pool, found, is_floor) < finder.settings_.min_points) return std::nullopt;
+    scratch.weights.resize(pool.size());
+    for (std::size_t i = 0; i < pool.size(); ++i)
+      scratch.weights[i] = scratch.claims[i] == Claim::kPoint ? 1.0F : 0.0F;
+    const PlaneFit fit = fit_inliers(pool, found, threshold(), scratch.weights);
     const auto free = fit.solve();
     if (!free) return std::nullopt;
     const SectionPlane settled{*free, fit, is_floor};
@@ -110,21 +91,15 @@ struct SectionPlaneFinder::Search {
   /// Labels the plane's points and takes them, and the noise around them, out of the pool. False, and nothing
   /// is done, where they are too few.
   bool claim(const SectionPlane& settled) {
-    const InverseDepthPlane& plane = settled.plane;
     PlanePool& pool = scratch.pool;
-    count_blocks(pool, plane, settled.dominant);
-    int points = 0;
-    for (std::size_t i = 0; i < pool.size(); ++i) points += claims(pool, i, plane) ? 1 : 0;
-    if (points < finder.settings_.min_points) return false;
+    if (claim_points(pool, settled.plane, settled.dominant) < finder.settings_.min_points) return false;
     const auto index = static_cast<std::int16_t>(planes.size());
-    pool.keep_if([&](std::size_t i) {
-      const float distance = std::abs(pool.residual(i, plane));
-      const bool claimed = claims(pool, i, plane);
-      const bool noise = distance > threshold() && distance <= kNoiseBand * threshold() &&
-                         scratch.blocks.mostly_owned(pool.block[i]);
-      if (claimed || noise) label[static_cast<std::size_t>(pool.point[i])] = claimed ? index : kPlaneNoise;
-      return !claimed && !noise;
-    });
+    for (std::size_t i = 0; i < pool.size(); ++i) {
+      if (scratch.claims[i] == Claim::kNone) continue;
+      label[static_cast<std::size_t>(pool.point[i])] =
+          scratch.claims[i] == Claim::kPoint ? index : kPlaneNoise;
+    }
+    take_points(source_of(pool), scratch.claims, Claim::kNone, pool);
     planes.push_back(settled);
     return true;
   }
@@ -132,7 +107,12 @@ struct SectionPlaneFinder::Search {
   /// Inliers of a plane that does not own enough of them stay without a plane.
   void set_aside(const InverseDepthPlane& plane) {
     PlanePool& pool = scratch.pool;
-    pool.keep_if([&](std::size_t i) { return std::abs(pool.residual(i, plane)) > threshold(); });
+    scratch.distance.resize(pool.size());
+    scratch.claims.resize(pool.size());
+    find_distances(pool, plane, scratch.distance);
+    for (std::size_t i = 0; i < pool.size(); ++i)
+      scratch.claims[i] = scratch.distance[i] > threshold() ? Claim::kNone : Claim::kPoint;
+    take_points(source_of(pool), scratch.claims, Claim::kNone, pool);
   }
 
   /// First pass: the dominant floor plane.

@@ -8,6 +8,7 @@
 
 #include "perception/pixel_blocks.hpp"
 #include "perception/plane_pool.hpp"
+#include "perception/pool_kernel.hpp"
 #include "perception/ransac.hpp"
 #include "perception/reach.hpp"
 #include "perception/roi_cloud.hpp"
@@ -33,7 +34,10 @@ struct SectionScratch {
   PlanePool floor_pool;
   RansacScratch ransac;
   PixelBlocks blocks;
-  std::vector<float> claimed;  ///< a point of the pool: 1 where the plane in hand owns its surroundings
+  // Of each point of the pool, and of the plane in hand:
+  std::vector<float> distance;  ///< off the plane, in sigmas
+  std::vector<Claim> claims;
+  std::vector<float> weights;  ///< 1 for the plane's points
 };
 
 /// Recursive RANSAC of one section (section 4.6.1).

@@ -24,6 +24,8 @@ struct RoiSettings {
 struct SectionSettings {
   int x_res = 4;  ///< sections along x
   int y_res = 3;  ///< sections along y
+  /// Along x: all equally long, or each as long as lets the sensor's error grow equally much, eq. (5).
+  std::string layout = "uniform";
 };
 
 /// Statistical outlier removal (section 4.4).
@@ -54,12 +56,21 @@ struct CellSettings {
   int sight_line_stride_px = 4;      ///< every n-th pixel of every n-th row clears and expects
 };
 
+/// What is given up so that a frame is done in time: see Compromise.
+struct TimeSettings {
+  double deadline_ms = 100.0;  ///< live, from a frame's arrival; at most the camera's period
+  std::string compromise =
+      "auto";            ///< as far as the deadline asks for it, or never; far sections are skipped anyway
+  int point_stride = 1;  ///< every n-th pixel of every n-th row, always
+};
+
 struct PerceptionSettings {
   RoiSettings roi;
   SectionSettings sections;
   OutlierSettings outliers;
   PlaneSettings planes;
   CellSettings cells;
+  TimeSettings time;
 };
 
 template <class Visitor>
@@ -79,6 +90,7 @@ template <class Visitor>
 void visit_settings(Visitor& visit, SectionSettings& s) {
   visit("x_res", s.x_res, Allowed{1, 64});
   visit("y_res", s.y_res, Allowed{1, 64});
+  visit("layout", s.layout, {"uniform", "error_growth"});
 }
 
 template <class Visitor>
@@ -107,12 +119,20 @@ void visit_settings(Visitor& visit, CellSettings& s) {
 }
 
 template <class Visitor>
+void visit_settings(Visitor& visit, TimeSettings& s) {
+  visit("deadline_ms", s.deadline_ms, Allowed{1.0, 10000.0});
+  visit("compromise", s.compromise, {"auto", "never"});
+  visit("point_stride", s.point_stride, Allowed{1, 16});
+}
+
+template <class Visitor>
 void visit_settings(Visitor& visit, PerceptionSettings& s) {
   visit("roi", s.roi);
   visit("sections", s.sections);
   visit("outliers", s.outliers);
   visit("planes", s.planes);
   visit("cells", s.cells);
+  visit("time", s.time);
 }
 
 }  // namespace floornav

@@ -71,8 +71,8 @@ bool WindowImage::lay_out(const ImagePoints& cloud) {
   first_column_ = first_column;
   width_ = last_column - first_column + 1;
   stride_ = width_ + 2 * kMargin_px + kMaxLanes;
-  const auto size = static_cast<std::size_t>(stride_ * (height_ + 2 * kMargin_px));
-  for (auto* plane : {&x_, &y_, &z_}) plane->resize(size);
+  size_ = static_cast<std::size_t>(stride_ * (height_ + 2 * kMargin_px));
+  for (auto* plane : {&x_, &y_, &z_}) plane->resize(std::max(plane->size(), size_));
 
   fx_ = cloud.camera.fx;
   fy_ = cloud.camera.fy;
@@ -106,9 +106,11 @@ bool WindowImage::fill_rows(const ImagePoints& cloud, int first_row, int end_row
       const int column = column_of(cloud.pixel[i], row);
       const auto place = static_cast<std::size_t>(at(row, column));
       const float x = cloud.points.x[i], y = cloud.points.y[i], z = cloud.points.z[i];
-      const float off_x = std::abs(x - column_tangent_[static_cast<std::size_t>(column)] * z);
-      const float off_y = std::abs(y - row_tangent * z);
-      on_rays = on_rays && off_x <= kOnRay * z && off_y <= kOnRay * z;
+      if (!cloud.is_on_rays) {
+        const float off_x = std::abs(x - column_tangent_[static_cast<std::size_t>(column)] * z);
+        const float off_y = std::abs(y - row_tangent * z);
+        on_rays = on_rays && off_x <= kOnRay * z && off_y <= kOnRay * z;
+      }
       x_[place] = x;
       y_[place] = y;
       z_[place] = z;

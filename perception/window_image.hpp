@@ -16,6 +16,7 @@ struct ImagePoints {
   PointsView points;                    ///< sensor frame
   std::span<const std::int32_t> pixel;  ///< row * camera.width + column
   Pinhole camera;
+  bool is_on_rays = false;  ///< known: need not be looked at
 };
 
 /// The part of the image that holds some points, as planes with an empty margin, and how far away what lies
@@ -43,7 +44,7 @@ class WindowImage {
     return pixel - (row + first_row_) * image_width_ - first_column_;
   }
   /// Places in a plane.
-  [[nodiscard]] std::size_t size() const { return x_.size(); }
+  [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const float* x() const { return x_.data(); }
   [[nodiscard]] const float* y() const { return y_.data(); }
   [[nodiscard]] const float* z() const { return z_.data(); }
@@ -70,8 +71,9 @@ class WindowImage {
   int first_column_ = 0, first_row_ = 0;  ///< of the part
   int width_ = 0, height_ = 0;
   std::ptrdiff_t stride_ = 0;
+  std::size_t size_ = 0;
   float fx_ = 1.0F, fy_ = 1.0F;
-  std::vector<float> x_, y_, z_;
+  std::vector<float> x_, y_, z_;  ///< never shrink
   std::vector<std::int32_t> row_begin_;
   std::vector<float> column_tangent_, row_tangent_;  ///< of the pixels' rays
   Bounds column_bound_, row_bound_;

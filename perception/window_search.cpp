@@ -20,7 +20,7 @@ bool WindowSearch::mean_distances(const ImagePoints& cloud, int neighbors, Paral
   left_.clear();
   if (cloud.points.size() <= static_cast<std::size_t>(neighbors) || neighbors > kMaxNeighbors) return false;
   if (!image_.lay_out(cloud)) return false;
-  mean_m_.resize(image_.size());
+  mean_m_.resize(std::max(mean_m_.size(), image_.size()));
   const int rows = std::max(kPixelsPerPiece / image_.width(), 1);
   const int bands = (image_.height() + rows - 1) / rows;
   const auto end_of = [&](int band) { return std::min((band + 1) * rows, image_.height()); };

@@ -136,7 +136,7 @@ bool MapperNode::step(Micros now, Budget& /*budget*/, Outbox& out) {
   } else {
     open_ = OpenFrame{part.source, part.evidence, now};
   }
-  if (part.part == part.parts - 1) finish_frame(out);
+  if (part.is_last()) finish_frame(out);
   return !waiting_.empty();
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
 namespace floornav {
@@ -50,10 +51,11 @@ class PartWriter {
     parts_.back().cells.push_back(cell);
     bytes_ += cell_bytes_;
   }
-  std::vector<surfels_t> take() {
+  /// `first`: parts of the frame that were taken before.
+  std::vector<surfels_t> take(std::size_t first, bool is_last) {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-      parts_[i].part = static_cast<std::int16_t>(i);
-      parts_[i].parts = static_cast<std::int16_t>(parts_.size());
+      parts_[i].part = static_cast<std::int16_t>(first + i);
+      parts_[i].parts = is_last ? static_cast<std::int16_t>(first + parts_.size()) : std::int16_t{0};
       parts_[i].n_surfels = static_cast<std::int32_t>(parts_[i].surfels.size());
       parts_[i].n_cells = static_cast<std::int32_t>(parts_[i].cells.size());
     }
@@ -73,7 +75,7 @@ section_t to_message(const SectionReport& section) {
   section_t m;
   m.ix = section.ix;
   m.iy = section.iy;
-  m.state = section.done ? section_t::DONE : section_t::SKIPPED;
+  m.state = section.done ? section_t::DONE : section.later ? section_t::LATER : section_t::SKIPPED;
   m.age = section.age;
   m.points = section.points;
   return m;
@@ -133,10 +135,11 @@ surfels_t frame_message(const FloorEvidence& evidence, const EvidenceSource& sou
   return m;
 }
 
-/// The cells of each surfel; the last list is of those without one.
-std::vector<std::vector<const CellEvidence*>> cells_by_surfel(const FloorEvidence& evidence) {
+/// The cells from number `first` on, of each surfel; the last list is of those without one.
+std::vector<std::vector<const CellEvidence*>> cells_by_surfel(const FloorEvidence& evidence,
+                                                              std::size_t first) {
   std::vector<std::vector<const CellEvidence*>> cells(evidence.surfels.size() + 1);
-  for (const CellEvidence& cell : evidence.cells)
+  for (const CellEvidence& cell : std::span(evidence.cells).subspan(first))
     (cell.surfel < 0 ? cells.back() : cells.at(static_cast<std::size_t>(cell.surfel))).push_back(&cell);
   return cells;
 }
@@ -153,7 +156,7 @@ bool is_offset(float value) {
 }  // false for NaN
 
 void check_frame(const surfels_t& m) {
-  require(m.parts > 0 && m.part >= 0 && m.part < m.parts, "part is not one of parts");
+  require(m.parts >= 0 && m.part >= 0 && (m.parts == 0 || m.part < m.parts), "part is not one of parts");
   require(m.pitch >= 1e-3 && m.pitch <= 10.0, "absurd pitch");
   for (const double p : m.origin) require(std::abs(p) <= kMaxPosition_m, "absurd origin");
   for (const double p : m.body_pos) require(std::abs(p) <= kMaxPosition_m, "absurd body position");
@@ -166,8 +169,9 @@ void check_frame(const surfels_t& m) {
 
 SectionReport section_of(const section_t& m) {
   require(m.ix >= 0 && m.iy >= 0 && m.age >= 0 && m.points >= 0, "a section has a negative value");
-  require(m.state == section_t::DONE || m.state == section_t::SKIPPED, "unknown state of a section");
-  return {m.ix, m.iy, m.state == section_t::DONE, m.age, m.points};
+  require(m.state == section_t::DONE || m.state == section_t::SKIPPED || m.state == section_t::LATER,
+          "unknown state of a section");
+  return {m.ix, m.iy, m.state == section_t::DONE, m.age, m.points, m.state == section_t::LATER};
 }
 
 Surfel surfel_of(const surfel_t& m, const FloorEvidence& evidence, const Eigen::Vector3d& origin) {
@@ -219,13 +223,14 @@ CellEvidence cell_of(const surfel_cell_t& m, const surfels_t& frame) {
 
 }  // namespace
 
-std::vector<surfels_t> to_messages(const FloorEvidence& evidence, const EvidenceSource& source) {
-  const surfels_t empty = frame_message(evidence, source);
+std::vector<surfels_t> FrameMessages::next(const FloorEvidence& evidence, bool is_last) {
+  const surfels_t empty = frame_message(evidence, source_);
   const Eigen::Vector3d origin = evidence.T_world_body.translation();
   const CellIndex origin_cell{empty.origin_ix, empty.origin_iy};
-  const auto cells = cells_by_surfel(evidence);
+  const auto cells = cells_by_surfel(evidence, cells_);
   PartWriter writer(empty);
   for (std::size_t s = 0; s < evidence.surfels.size(); ++s) {
+    if (s < surfels_ && cells[s].empty()) continue;
     const surfel_t surfel = to_message(evidence.surfels[s], origin);
     if (!writer.fits(1, cells[s].size())) writer.begin_part();
     writer.add(surfel);
@@ -241,7 +246,15 @@ std::vector<surfels_t> to_messages(const FloorEvidence& evidence, const Evidence
     if (!writer.fits(0, 1)) writer.begin_part();
     writer.add(to_message(*cell, origin_cell, origin.z()), false);
   }
-  return writer.take();
+  std::vector<surfels_t> messages = writer.take(parts_, is_last);
+  surfels_ = evidence.surfels.size();
+  cells_ = evidence.cells.size();
+  parts_ += messages.size();
+  return messages;
+}
+
+std::vector<surfels_t> to_messages(const FloorEvidence& evidence, const EvidenceSource& source) {
+  return FrameMessages(source).next(evidence, true);
 }
 
 EvidencePart to_evidence(const surfels_t& message) {

@@ -47,6 +47,7 @@ LiveExecutor::LiveExecutor(Node& node, Transport& transport, LiveOptions options
   const std::optional<Micros> deadline = options_.log_time ? std::nullopt : node_.deadline();
   budget_ = deadline ? std::unique_ptr<Budget>(std::make_unique<DeadlineBudget>(*deadline))
                      : std::make_unique<UnlimitedBudget>();
+  out_.set_hurry([this] { publish(); });
   node_.subscribe(inbox_);
 }
 

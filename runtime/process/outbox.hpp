@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -40,6 +41,12 @@ class Outbox {
     messages_.push_back(std::move(encoded));
   }
 
+  /// Lets what was published so far leave at once, in the middle of a step, where the executor can do that.
+  void hurry() {
+    if (hurry_) hurry_();
+  }
+  void set_hurry(std::function<void()> hurry) { hurry_ = std::move(hurry); }
+
   /// What was published since the last call, in order.
   std::vector<EncodedMessage> take() { return std::exchange(messages_, {}); }
 
@@ -47,6 +54,7 @@ class Outbox {
   Identity identity_;
   std::map<std::string, std::int64_t> last_seq_;
   std::vector<EncodedMessage> messages_;
+  std::function<void()> hurry_;
 };
 
 }  // namespace floornav

@@ -245,24 +245,29 @@ TEST(FloorPerception, AnyNumberOfWorkersGivesTheSameBits) {
   }
 }
 
+/// Grants the nearest row, which is not asked for one by one, and so many sections more.
+Admission grant(int sections, int& asked) {
+  asked = 0;
+  return [sections, &asked](std::int64_t work_ns) {
+    EXPECT_GT(work_ns, 0);
+    return asked++ <= sections;
+  };
+}
+
 TEST(FloorPerception, NearSectionsComeFirstAndSkippedOnesCarryNoEvidence) {
   RenderedScene scene = small_scene();
   const DepthFrame frame = scene.render();
   Serial serial;
   FloorPerception perception({}, {});
   int asked = 0;
-  const auto six = [&](std::int64_t work_ns) {
-    EXPECT_GT(work_ns, 0);
-    return ++asked <= 6;
-  };
-  perception.process(frame, scene.T_world_body, serial, six);
-  asked = 0;
-  const FloorEvidence evidence = perception.process(frame, scene.T_world_body, serial, six);
-  EXPECT_EQ(asked, 12);
+  perception.process(frame, scene.T_world_body, serial, grant(3, asked));
+  const FloorEvidence evidence = perception.process(frame, scene.T_world_body, serial, grant(3, asked));
+  EXPECT_EQ(asked, 10);
   for (const SectionReport& section : evidence.sections) {
     EXPECT_EQ(section.done, section.ix < 2);
     EXPECT_EQ(section.age, section.ix < 2 ? 0 : 2);
     EXPECT_GT(section.points, 0);
+    EXPECT_FALSE(section.later);
   }
   EXPECT_FALSE(evidence.surfels.empty());
   for (const Surfel& surfel : evidence.surfels)
@@ -271,18 +276,30 @@ TEST(FloorPerception, NearSectionsComeFirstAndSkippedOnesCarryNoEvidence) {
     EXPECT_LT(evidence.lattice.center_of(cell.cell.ix) - scene.T_world_body.translation().x(), 2.45 + 0.1);
 }
 
-/// With time for two rows of four, the far rows have their turn too: each section within kMaxAge frames and a
-/// few more; the nearest row in every frame.
+TEST(FloorPerception, TheNearestRowIsDoneWhateverTheTime) {
+  RenderedScene scene = small_scene();
+  const DepthFrame frame = scene.render();
+  Serial serial;
+  FloorPerception perception({}, {});
+  const FloorEvidence evidence =
+      perception.process(frame, scene.T_world_body, serial, [](std::int64_t) { return false; });
+  for (const SectionReport& section : evidence.sections) EXPECT_EQ(section.done, section.ix == 0);
+  EXPECT_NE(
+      cell_at(evidence, scene.T_world_body.translation().x() + 1.0, scene.T_world_body.translation().y()),
+      nullptr);
+}
+
+/// With time for three sections of nine beside the nearest row, the far ones have their turn too: each
+/// section within kMaxAge frames and a few more; the nearest row in every frame.
 TEST(FloorPerception, NoSectionStarvesWhenTimeIsAlwaysShort) {
   RenderedScene scene = small_scene();
   const DepthFrame frame = scene.render();
   Serial serial;
   FloorPerception perception({}, {});
   std::vector<int> done(12, 0);
+  int asked = 0;
   for (int i = 0; i < 3 * FloorPerception::kMaxAge; ++i) {
-    int asked = 0;
-    const FloorEvidence& evidence =
-        perception.process(frame, scene.T_world_body, serial, [&](std::int64_t) { return ++asked <= 6; });
+    const FloorEvidence& evidence = perception.process(frame, scene.T_world_body, serial, grant(3, asked));
     for (std::size_t s = 0; s < evidence.sections.size(); ++s) {
       EXPECT_LE(evidence.sections[s].age, FloorPerception::kMaxAge + 3);
       EXPECT_TRUE(evidence.sections[s].done || evidence.sections[s].ix > 0);
@@ -290,6 +307,182 @@ TEST(FloorPerception, NoSectionStarvesWhenTimeIsAlwaysShort) {
     }
   }
   EXPECT_GE(*std::min_element(done.begin(), done.end()), 2);
+}
+
+TEST(FloorPerception, SectionsOnThePathComeBeforeNearerOnes) {
+  RenderedScene scene = small_scene();
+  const DepthFrame frame = scene.render();
+  Serial serial;
+  FloorPerception perception({}, {});
+  const Eigen::Vector2d body = scene.T_world_body.translation().head<2>();
+  const std::vector<Eigen::Vector2d> path{body + Eigen::Vector2d(0.3, 0.0), body + Eigen::Vector2d(1.5, -1.5),
+                                          body + Eigen::Vector2d(4.5, -1.5)};
+  perception.set_path(path);
+  int asked = 0;
+  const FloorEvidence evidence = perception.process(frame, scene.T_world_body, serial, grant(3, asked));
+  for (const SectionReport& section : evidence.sections)
+    EXPECT_EQ(section.done, section.ix == 0 || section.iy == 0) << section.ix << ", " << section.iy;
+}
+
+/// What is told of the nearest row is final, and no cell is told twice.
+TEST(FloorPerception, TheNearestRowIsToldFirst) {
+  RenderedScene scene = small_scene();
+  add_box(scene, 1.0, 0.2, 0.2, 0.1);
+  add_box(scene, 1.22, -0.4, 0.3, 0.2);  // across the first border
+  const DepthFrame frame = scene.render();
+  Serial serial;
+  FloorPerception perception({}, {});
+  FloorEvidence near_row;
+  const FloorEvidence whole = perception.process(
+      frame, scene.T_world_body, serial, admit_all, [](PerceptionStage) {},
+      [&](const FloorEvidence& evidence) { near_row = evidence; });
+  for (const SectionReport& section : near_row.sections) {
+    EXPECT_EQ(section.done, section.ix == 0);
+    EXPECT_EQ(section.later, section.ix > 0);
+  }
+  ASSERT_GT(near_row.cells.size(), 100U);
+  ASSERT_LT(near_row.cells.size(), whole.cells.size());
+  FloorEvidence begin = whole;
+  begin.surfels.resize(near_row.surfels.size());
+  begin.cells.resize(near_row.cells.size());
+  expect_same(begin, near_row);
+  for (const CellEvidence& cell : near_row.cells)
+    EXPECT_LT(whole.lattice.center_of(cell.cell.ix) - scene.T_world_body.translation().x(), 4.9 / 4);
+  std::vector<CellIndex> cells;
+  for (const CellEvidence& cell : whole.cells) cells.push_back(cell.cell);
+  std::sort(cells.begin(), cells.end());
+  EXPECT_EQ(std::adjacent_find(cells.begin(), cells.end()), cells.end());
+}
+
+/// Height of a surfel's plane at a place.
+double height_at(const Surfel& surfel, double x, double y) {
+  const Eigen::Vector3d n = surfel.normal.cast<double>(), c = surfel.centroid_m;
+  return c.z() - (n.x() * (x - c.x()) + n.y() * (y - c.y())) / n.z();
+}
+
+struct Borders {
+  const char* name;
+  double slope;
+  const char* layout;
+};
+
+/// One floor across sections comes out as one floor: on both sides of every border it is equally high.
+class SectionBorders : public testing::TestWithParam<Borders> {};
+
+TEST_P(SectionBorders, AreNoSteps) {
+  RenderedScene scene = small_scene();
+  scene.floor_slope = GetParam().slope;
+  scene.T_world_body.translation() = Eigen::Vector3d::Zero();
+  PerceptionSettings settings;
+  settings.sections.layout = GetParam().layout;
+  const FloorEvidence evidence = perceive(scene, settings);
+  const SectionGrid grid(settings.roi, settings.sections);
+  std::vector<const Surfel*> floors(12, nullptr);
+  for (const Surfel& surfel : evidence.surfels)
+    if (surfel.dominant) floors[static_cast<std::size_t>(surfel.section)] = &surfel;
+  int compared = 0;
+  const auto compare = [&](int section, int other, double x, double y) {
+    const Surfel* a = floors[static_cast<std::size_t>(section)];
+    const Surfel* b = floors[static_cast<std::size_t>(other)];
+    if (a == nullptr || b == nullptr) return;
+    ++compared;
+    EXPECT_NEAR(height_at(*a, x, y), height_at(*b, x, y), 0.0025 * std::max(1.0, x))
+        << "at " << x << ", " << y;
+    EXPECT_NEAR(height_at(*a, x, y), GetParam().slope * x, 0.0025 * std::max(1.0, x))
+        << "at " << x << ", " << y;
+  };
+  for (int ix = 0; ix < 4; ++ix)
+    for (int iy = 0; iy < 3; ++iy) {
+      const double x = 0.5 * static_cast<double>(grid.x_axis().border_m(ix) + grid.x_axis().border_m(ix + 1));
+      const double y = 0.5 * static_cast<double>(grid.y_axis().border_m(iy) + grid.y_axis().border_m(iy + 1));
+      if (ix > 0) compare(3 * (ix - 1) + iy, 3 * ix + iy, static_cast<double>(grid.x_axis().border_m(ix)), y);
+      if (iy > 0) compare(3 * ix + iy - 1, 3 * ix + iy, x, static_cast<double>(grid.y_axis().border_m(iy)));
+    }
+  EXPECT_GE(compared, 14);
+}
+
+INSTANTIATE_TEST_SUITE_P(Floors, SectionBorders,
+                         testing::Values(Borders{"Flat", 0.0, "uniform"}, Borders{"Uphill", 0.08, "uniform"},
+                                         Borders{"Downhill", -0.06, "uniform"},
+                                         Borders{"FlatByErrorGrowth", 0.0, "error_growth"},
+                                         Borders{"UphillByErrorGrowth", 0.08, "error_growth"}),
+                         [](const auto& info) { return info.param.name; });
+
+/// Eq. (5): the sensor's error, which grows with the square of the distance, grows equally much in each
+/// section.
+TEST(SectionGrid, ByErrorGrowthEachSectionSpansTheSameGrowth) {
+  SectionSettings sections;
+  sections.layout = "error_growth";
+  const SectionGrid grid(RoiSettings{}, sections);
+  for (int k = 0; k < 4; ++k) {
+    const auto from = static_cast<double>(grid.x_axis().border_m(k)),
+               to = static_cast<double>(grid.x_axis().border_m(k + 1));
+    EXPECT_NEAR(to * to - from * from, 4.9 * 4.9 / 4, 1e-4);
+    EXPECT_EQ(grid.at(static_cast<float>(from + 1e-3), 0.0F), 3 * k + 1);
+    EXPECT_EQ(grid.at(static_cast<float>(to - 1e-3), 0.0F), 3 * k + 1);
+  }
+}
+
+TEST(FloorPerception, RecursionToTheEndPutsEveryPointOnAPlane) {
+  RenderedScene scene = small_scene();
+  add_box(scene, 1.2, 0.4, 0.3, 0.05);
+  add_box(scene, 2.2, -0.3, 0.3, 0.40);
+  PerceptionSettings settings;
+  settings.planes.max_planes = 2000;
+  settings.planes.min_points = 3;
+  const FloorEvidence evidence = perceive(scene, settings);
+  double on_planes = 0;
+  for (const Surfel& surfel : evidence.surfels) on_planes += surfel.points;
+  EXPECT_GE(on_planes / static_cast<double>(evidence.pixels.in_roi - evidence.pixels.outliers), 0.98);
+}
+
+TEST(FloorPerception, ObstaclePlanesHaveTheirPlaceAndOrientation) {
+  RenderedScene scene = small_scene();
+  add_box(scene, 1.9, 0.3, 0.6, 0.6);
+  const Eigen::Vector3d body = scene.T_world_body.translation();
+  const FloorEvidence evidence = perceive(scene);
+  int fronts = 0;
+  for (const Surfel& surfel : evidence.surfels) {
+    if (surfel.traversable || surfel.normal.x() > -0.9F) continue;
+    ++fronts;
+    EXPECT_NEAR(surfel.centroid_m.x() - body.x(), 1.6, 0.01);
+    EXPECT_NEAR(surfel.centroid_m.y() - body.y(), 0.3, 0.3);
+    EXPECT_GT(surfel.normal.dot(Eigen::Vector3f(-1, 0, 0)), 0.999F);
+    EXPECT_FALSE(surfel.dominant);
+  }
+  EXPECT_GE(fronts, 1);
+}
+
+/// Where a cloud tells how uncertain each pixel is, the floor follows the certain ones.
+TEST(FloorPerception, AnUncertaintyPlaneIsHeeded) {
+  RenderedScene scene = small_scene();
+  const Eigen::Vector3d body = scene.T_world_body.translation();
+  DepthFrame frame = scene.render();
+  std::vector<std::uint8_t> uncertainty(scene.pixels.size(), 0);
+  // Every second block of 16 columns lies 2 cm too low, and says that it may.
+  std::vector<std::uint16_t> pixels = scene.pixels;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    if (i % 320 / 16 % 2 == 0 || pixels[i] == 0) continue;
+    pixels[i] = static_cast<std::uint16_t>(1.03 * pixels[i]);
+    uncertainty[i] = 50;
+  }
+  frame.pixels = pixels;
+  const auto error_at = [&](double x) {
+    Serial serial;
+    const FloorEvidence evidence =
+        FloorPerception({}, {}).process(frame, scene.T_world_body, serial, admit_all);
+    double worst = 0;
+    for (const Surfel& surfel : evidence.surfels)
+      if (surfel.dominant && std::abs(surfel.centroid_m.x() - body.x() - x) < 0.6)
+        worst = std::max(worst, std::abs(height_at(surfel, body.x() + x, surfel.centroid_m.y())));
+    return worst;
+  };
+  const double not_told = error_at(1.0);
+  frame.uncertainty = uncertainty;
+  frame.uncertainty_scale = 0.05F;
+  const double told = error_at(1.0);
+  EXPECT_LT(told, 0.003);
+  EXPECT_LT(told, 0.5 * not_told);
 }
 
 TEST(FloorPerception, TheMapDoesNotDependOnHowTheBodyIsTurned) {

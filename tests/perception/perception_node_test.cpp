@@ -1,5 +1,7 @@
 #include "perception/node/perception_node.hpp"
 
+#include <map>
+
 #include <gtest/gtest.h>
 
 #include "floornav/surfels_t.hpp"
@@ -246,25 +248,131 @@ TEST_F(PerceptionNodeTest, AFrameWithAMissingStripIsDroppedAndTheNextOneTaken) {
   EXPECT_EQ(dropped("KINECT_CLOUD incomplete"), 2);
 }
 
+/// All parts of one frame with a budget.
+std::vector<surfels_t> parts_of_frame(PerceptionNode& node, Outbox& out, Budget& budget, Micros now) {
+  while (node.step(now, budget, out)) {
+  }
+  std::vector<surfels_t> parts;
+  for (const EncodedMessage& message : out.take())
+    EXPECT_GT(parts.emplace_back().decode(message.bytes.data(), 0, static_cast<int>(message.bytes.size())),
+              0);
+  return parts;
+}
+
 TEST_F(PerceptionNodeTest, ABudgetOfWorkSkipsSectionsTheSameWayEachTime) {
-  send_pose(kStart_us, 0.0, 0ms);
-  send_pose(kStart_us + 100'000, 0.0, 0ms);
+  PerceptionSettings settings;
+  settings.time.compromise = "never";
   std::vector<std::vector<std::int8_t>> states;
   for (int repeat = 0; repeat < 2; ++repeat) {
-    send_cloud(kStart_us + 1000 * (repeat + 1), 1ms);
-    WorkBudget budget(9'000'000);
-    while (node_.step(1ms, budget, out_)) {
-    }
-    const auto messages = out_.take();
-    ASSERT_FALSE(messages.empty());
-    surfels_t surfels;
-    ASSERT_GT(surfels.decode(messages[0].bytes.data(), 0, static_cast<int>(messages[0].bytes.size())), 0);
+    PerceptionNode node(settings, {}, serial_);
+    Inbox inbox;
+    node.subscribe(inbox);
+    inbox_ = std::move(inbox);
+    send_pose(kStart_us, 0.0, 0ms);
+    send_pose(kStart_us + 100'000, 0.0, 0ms);
     auto& state = states.emplace_back();
-    for (const section_t& section : surfels.sections) state.push_back(section.state);
-    EXPECT_EQ(state[1], section_t::DONE);     // straight ahead, nearest
-    EXPECT_EQ(state[4], section_t::SKIPPED);  // behind it
+    for (int frame = 1; frame <= 3; ++frame) {
+      send_cloud(kStart_us + 1000 * frame, 1ms);
+      WorkBudget budget(1'300'000);
+      const auto parts = parts_of_frame(node, out_, budget, 1ms);
+      ASSERT_FALSE(parts.empty());
+      for (const section_t& section : parts.back().sections) state.push_back(section.state);
+    }
+    EXPECT_EQ(state[1], section_t::DONE);      // straight ahead, nearest
+    EXPECT_EQ(state[10], section_t::SKIPPED);  // farthest
   }
   EXPECT_EQ(states[0], states[1]);
+}
+
+TEST_F(PerceptionNodeTest, TheNearestRowLeavesBeforeTheOthersAreDone) {
+  send_pose(kStart_us, 0.0, 0ms);
+  send_pose(kStart_us + 100'000, 0.0, 0ms);
+  send_cloud(kStart_us + 1000, 1ms);
+  std::size_t first_to_leave = 0;
+  out_.set_hurry([&] { first_to_leave = out_.take().size(); });
+  UnlimitedBudget budget;
+  const auto rest = parts_of_frame(node_, out_, budget, 1ms);
+  EXPECT_GE(first_to_leave, 1U);
+  ASSERT_GE(rest.size(), 1U);
+  EXPECT_EQ(rest.front().part, static_cast<int>(first_to_leave));
+  EXPECT_EQ(rest.back().parts, static_cast<int>(first_to_leave + rest.size()));
+}
+
+TEST_F(PerceptionNodeTest, AutomaticallyGivesUpWhatTheDeadlineAsksForAndSaysWhat) {
+  send_pose(kStart_us, 0.0, 0ms);
+  send_pose(kStart_us + 100'000, 0.0, 0ms);
+  int skipped = 0;
+  for (int frame = 1; frame <= 3; ++frame) {
+    send_cloud(kStart_us + 1000 * frame, 1ms);
+    WorkBudget budget(1'300'000);
+    const auto parts = parts_of_frame(node_, out_, budget, 1ms);
+    skipped = 0;
+    for (const section_t& section : parts.back().sections)
+      skipped += section.state == section_t::SKIPPED ? 1 : 0;
+  }
+  EXPECT_EQ(skipped, 0);  // the first frame had to skip some; then less is done of everything
+  EXPECT_EQ(dropped("frames in time by " + Compromise::at(4).text()), 2);
+  EXPECT_GT(dropped("sections skipped for time"), 0);
+}
+
+/// Kinect and Bumblebee frames that interleave give what each gives alone.
+TEST_F(PerceptionNodeTest, TwoSensorsDoNotDisturbEachOther) {
+  const auto told = [&](bool kinect, bool bumblebee) {
+    PerceptionNode node({}, {}, serial_);
+    Inbox inbox;
+    node.subscribe(inbox);
+    inbox_ = std::move(inbox);
+    Outbox out({"perception", 3});
+    send_pose(kStart_us, 0.0, 0ms);
+    send_pose(kStart_us + 100'000, 0.1, 0ms);
+    std::map<std::int8_t, std::vector<std::uint8_t>> bytes;  // by sensor
+    for (int frame = 1; frame <= 3; ++frame)
+      for (const bool is_kinect : {true, false}) {
+        if (is_kinect ? !kinect : !bumblebee) continue;
+        depth_cloud_t message = cloud(kStart_us + 10'000 * frame + (is_kinect ? 0 : 3000), frame);
+        message.disparity_sigma = is_kinect ? 0.067F : 0.2F;
+        message.sensor = is_kinect ? depth_cloud_t::KINECT : depth_cloud_t::BUMBLEBEE;
+        message.seq = frame;
+        deliver(is_kinect ? channel::kKinectCloud : channel::kBumblebeeCloud, message, 1ms);
+        UnlimitedBudget budget;
+        for (surfels_t& part : parts_of_frame(node, out, budget, 1ms)) {
+          part.seq = 0;
+          std::vector<std::uint8_t> encoded(static_cast<std::size_t>(part.getEncodedSize()));
+          part.encode(encoded.data(), 0, static_cast<int>(encoded.size()));
+          auto& all = bytes[part.sensor];
+          all.insert(all.end(), encoded.begin(), encoded.end());
+        }
+      }
+    return bytes;
+  };
+  const auto both = told(true, true);
+  const auto kinect = told(true, false), bumblebee = told(false, true);
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_EQ(both.at(depth_cloud_t::KINECT), kinect.at(depth_cloud_t::KINECT));
+  EXPECT_EQ(both.at(depth_cloud_t::BUMBLEBEE), bumblebee.at(depth_cloud_t::BUMBLEBEE));
+  EXPECT_NE(kinect.at(depth_cloud_t::KINECT), bumblebee.at(depth_cloud_t::BUMBLEBEE));  // an error model each
+}
+
+/// Past its deadline a frame gives way to a newer one.
+TEST_F(PerceptionNodeTest, ANewerFrameSupersedesOneThatIsTooLate) {
+  class Late final : public Budget {
+   public:
+    void begin(Micros arrived, Micros) override { left_ = arrived < Micros(2ms) ? 0 : 1'000'000'000; }
+    bool spend(std::int64_t, std::int64_t) override { return true; }
+    void charge(std::int64_t) override {}
+    [[nodiscard]] std::int64_t left_ns() const override { return left_; }
+
+   private:
+    std::int64_t left_ = 0;
+  };
+  send_pose(kStart_us, 0.0, 0ms);
+  send_pose(kStart_us + 100'000, 0.0, 0ms);
+  send_cloud(kStart_us + 1000, 1ms);
+  send_cloud(kStart_us + 2000, 3ms);
+  Late budget;
+  const auto parts = parts_of_frame(node_, out_, budget, 4ms);
+  for (const surfels_t& part : parts) EXPECT_EQ(part.frame, 2);
+  EXPECT_EQ(dropped("KINECT_CLOUD overtaken"), 1);
 }
 
 }  // namespace

@@ -140,6 +140,36 @@ TEST(SurfelsMessage, ASurfelComesOnceWhereItsCellsFitIntoOnePart) {
   EXPECT_EQ(surfels, sent.surfels.size());
 }
 
+/// A frame that is told in two goes: how many parts there are is known at its end only.
+TEST(SurfelsMessage, AFrameCanBeToldAsItBecomesKnown) {
+  const FloorEvidence whole = sample_evidence(3);
+  FloorEvidence begin = whole;
+  begin.surfels.resize(4);
+  begin.cells.resize(12);
+  for (std::size_t s = 3; s < begin.sections.size(); ++s) {
+    begin.sections[s].done = s == 3;
+    begin.sections[s].later = s != 3;
+  }
+  FrameMessages frame(sample_source());
+  std::vector<surfels_t> messages = frame.next(begin, false);
+  ASSERT_EQ(messages.size(), 1U);
+  const EvidencePart first = to_evidence(wired(messages[0]));
+  EXPECT_EQ(first.parts, 0);
+  EXPECT_FALSE(first.is_last());
+  EXPECT_TRUE(first.evidence.sections[4].later);
+  FloorEvidence more = whole;
+  more.cells.push_back(whole.cells.front());  // of a surfel that was told already
+  more.cells.back().cell.ix += 100;
+  messages = frame.next(more, true);
+  ASSERT_EQ(messages.size(), 1U);
+  const EvidencePart last = to_evidence(wired(messages[0]));
+  EXPECT_EQ(last.part, 1);
+  EXPECT_EQ(last.parts, 2);
+  EXPECT_TRUE(last.is_last());
+  EXPECT_EQ(last.evidence.cells.size(), whole.cells.size() - 12 + 1);
+  EXPECT_EQ(last.evidence.surfels.size(), whole.surfels.size() - 4 + 1);
+}
+
 TEST(SurfelsMessage, AnEmptyFrameIsOneMessage) {
   EXPECT_EQ(to_messages(FloorEvidence{}, {}).size(), 1U);
 }

@@ -48,10 +48,8 @@ TEST_P(OutlierSearches, DecideTheSamePointForPoint) {
     const cv::Mat image = cv::imread(files[f], cv::IMREAD_UNCHANGED);
     ASSERT_TRUE(image.isContinuous() && image.type() == CV_16UC1) << files[f];
     const DepthFrame frame = frame_of(image, GetParam());
-    Measurer measurer(roi.roughness_m);
-    measurer.begin(frame);
     RoiCloud cloud;
-    RoiClipper(roi, grid).clip(frame, measurer, SensorView(frame, Pose::Identity()), serial, cloud);
+    RoiClipper(roi, grid).clip(frame, SensorView(frame, Pose::Identity()), serial, cloud);
     for (const int neighbors : {8, 20}) {
       OutlierRemover window({neighbors, 1.0, "window"}), nanoflann({neighbors, 1.0, "nanoflann"});
       for (int section = 0; section < grid.count(); ++section) {

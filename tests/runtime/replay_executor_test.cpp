@@ -121,7 +121,8 @@ TEST(ReplayExecutor, GivesEachFrameTheBudgetAskedFor) {
 }
 
 TEST(WorkBudget, RefusesWhatDoesNotFitIntoTheFrame) {
-  WorkBudget budget(1000);
+  WorkBudget counted(1000);
+  Budget& budget = counted;
   EXPECT_TRUE(budget.spend(1'000'000));  // no frame has begun
   budget.begin(Micros(0));
   EXPECT_TRUE(budget.spend(600));
@@ -133,7 +134,8 @@ TEST(WorkBudget, RefusesWhatDoesNotFitIntoTheFrame) {
 }
 
 TEST(DeadlineBudget, RefusesWhatWouldBeLate) {
-  DeadlineBudget budget(std::chrono::seconds(100));
+  DeadlineBudget deadline(std::chrono::seconds(100));
+  Budget& budget = deadline;
   EXPECT_TRUE(budget.spend(0));  // no frame has begun
   const auto now = std::chrono::duration_cast<Micros>(std::chrono::steady_clock::now().time_since_epoch());
   budget.begin(now);

@@ -38,12 +38,10 @@ RoiCloud bench_cloud(const OutliersOptions& options, Pinhole& camera) {
   frame.disparity_sigma_px = static_cast<float>(spec.noise.sigma_px);
   frame.T_body_sensor = spec.T_body_sensor;
   const RoiSettings roi;
-  Measurer measurer(roi.roughness_m);
-  measurer.begin(frame);
   Serial serial;
   RoiCloud cloud;
   RoiClipper(roi, SectionGrid(roi, options.sections))
-      .clip(frame, measurer, SensorView(frame, Pose::Identity()), serial, cloud);
+      .clip(frame, SensorView(frame, Pose::Identity()), serial, cloud);
   return cloud;
 }
 

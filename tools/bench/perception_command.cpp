@@ -4,7 +4,6 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -29,6 +28,7 @@ struct PerceptionOptions {
   std::filesystem::path config;
   int threads = 1;
   int repeats = 1;
+  int level = 0;
   bool json = false;
 };
 
@@ -95,7 +95,7 @@ constexpr std::array<const char*, 6> kStageNames{"decode", "roi", "outliers", "p
 struct Measured {
   std::int64_t points = 0;
   std::vector<double> wall_ms, cpu_ms, near_first_ms;
-  std::array<std::vector<double>, kStageNames.size()> stages;
+  std::array<std::vector<double>, kStageNames.size()> stages;  ///< CPU time of all threads
 };
 
 /// One frame from the cloud's bytes to the messages.
@@ -106,22 +106,23 @@ void measure(FloorPerception& perception, FramePixels& memory, const TimedFrame&
   Times last = begin;
   const auto end_stage = [&](std::size_t stage) {
     const Times at = now();
-    spent[stage] += at.wall_ms - last.wall_ms;
+    spent[stage] += at.cpu_ms - last.cpu_ms;
     last = at;
   };
   const DepthFrame frame = unpack_frame(timed.strips, memory);
   end_stage(0);
   const double decoded_ms = last.wall_ms;
-  bool near_row = true;
+  const depth_cloud_t& first = timed.strips.front();
+  FrameMessages messages({first.source, first.session, first.frame, first.sensor});
   const FloorEvidence& evidence = perception.process(
       frame, timed.T_world_body, parallel, [](std::int64_t) { return true; },
-      [&](PerceptionStage stage) {
-        end_stage(1 + static_cast<std::size_t>(stage));
-        if (stage == PerceptionStage::kPlanes && std::exchange(near_row, false))
-          measured.near_first_ms.push_back(last.wall_ms - decoded_ms);
+      [&](PerceptionStage stage) { end_stage(1 + static_cast<std::size_t>(stage)); },
+      [&](const FloorEvidence& near_row) {
+        messages.next(near_row, false);
+        end_stage(5);
+        measured.near_first_ms.push_back(last.wall_ms - decoded_ms);
       });
-  const depth_cloud_t& first = timed.strips.front();
-  to_messages(evidence, {first.source, first.session, first.frame, first.sensor});
+  messages.next(evidence, true);
   end_stage(5);
   measured.points += evidence.pixels.in_roi;
   measured.wall_ms.push_back(last.wall_ms - begin.wall_ms);
@@ -138,6 +139,7 @@ void print(const PerceptionOptions& options, const Measured& m) {
     const nlohmann::json result{{"frames", frames},
                                 {"points", m.points / frames},
                                 {"threads", options.threads},
+                                {"level", options.level},
                                 {"median_ms", quantile_of(m.wall_ms, 0.5)},
                                 {"p99_ms", quantile_of(m.wall_ms, 0.99)},
                                 {"cpu_median_ms", quantile_of(m.cpu_ms, 0.5)},
@@ -150,7 +152,9 @@ void print(const PerceptionOptions& options, const Measured& m) {
              m.points / frames, options.threads);
   fmt::print("from cloud to messages: median {:.1f} ms, 99 % {:.1f} ms; CPU of all threads {:.1f} ms\n",
              quantile_of(m.wall_ms, 0.5), quantile_of(m.wall_ms, 0.99), quantile_of(m.cpu_ms, 0.5));
-  fmt::print("nearest row's planes: {:.1f} ms after decoding\n", quantile_of(m.near_first_ms, 0.5));
+  if (options.level > 0) fmt::print("with {}\n", Compromise::at(options.level).text());
+  fmt::print("nearest row's messages: {:.1f} ms after decoding\nCPU time of all threads:\n",
+             quantile_of(m.near_first_ms, 0.5));
   for (std::size_t s = 0; s < kStageNames.size(); ++s)
     fmt::print("  {:<9}{:6.1f} ms\n", kStageNames[s], quantile_of(m.stages[s], 0.5));
 }
@@ -161,6 +165,7 @@ void run(const PerceptionOptions& options) {
   const auto frames = read_frames(options.log);
   ThreadPool pool(options.threads);
   FloorPerception perception(settings.perception, settings.robot);
+  perception.set_compromise(Compromise::at(options.level));
   FramePixels memory;
   Measured warm_up, measured;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, frames.size()); ++i)
@@ -181,6 +186,9 @@ void add_perception_command(CLI::App& app) {
   command->add_option("--threads", options->threads)->check(CLI::Range(1, 64))->capture_default_str();
   command->add_option("--repeats", options->repeats, "Rounds through the log")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--level", options->level, "What is given up: 0 nothing, each level one thing more")
+      ->check(CLI::Range(0, Compromise::kLevels - 1))
       ->capture_default_str();
   command->add_flag("--json", options->json, "For programs");
   command->callback([options] { run(*options); });

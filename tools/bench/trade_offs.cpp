@@ -136,12 +136,10 @@ PlanePool pool_of(const RoiCloud& cloud, int section) {
 std::pair<double, double> hypotheses_and_ms(const View& view, const Search& search) {
   const PerceptionSettings settings = perception_for(SensorKind::kKinect, search.sections);
   const SensorView sensor(view.frame(), view.course().T_world_body);
-  Measurer measurer(settings.roi.roughness_m);
-  measurer.begin(view.frame());
   RoiCloud cloud;
   Serial serial;
   RoiClipper(settings.roi, SectionGrid(settings.roi, search.sections))
-      .clip(view.frame(), measurer, sensor, serial, cloud);
+      .clip(view.frame(), sensor, serial, cloud);
   PlaneQuery query;
   query.threshold_sigmas = static_cast<float>(settings.planes.threshold_sigmas);
   query.max_hypotheses = settings.planes.max_hypotheses;

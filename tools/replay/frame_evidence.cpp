@@ -1,5 +1,6 @@
 #include "tools/replay/frame_evidence.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "perception/node/surfels_message.hpp"
@@ -22,11 +23,14 @@ std::optional<FrameEvidence> FrameCollector::add(const surfels_t& message) {
     collected_ = {part.source.frame, part.source.sensor, std::move(part.evidence)};
   } else {
     FloorEvidence& whole = collected_.evidence;
+    whole.sections = std::move(part.evidence.sections);
     for (const Surfel& surfel : part.evidence.surfels)
-      if (whole.surfels.empty() || !is_same(surfel, whole.surfels.back())) whole.surfels.push_back(surfel);
+      if (std::none_of(whole.surfels.begin(), whole.surfels.end(),
+                       [&](const Surfel& told) { return is_same(surfel, told); }))
+        whole.surfels.push_back(surfel);
     whole.cells.insert(whole.cells.end(), part.evidence.cells.begin(), part.evidence.cells.end());
   }
-  if (part.part + 1 < part.parts) return std::nullopt;
+  if (!part.is_last()) return std::nullopt;
   return std::exchange(collected_, {});
 }
 

@@ -116,10 +116,10 @@ TEST_F(ReplayCommand, TellsInItsResultLogTheMapThatItsFilesShow) {
 }
 
 TEST_F(ReplayCommand, SkipsSectionsUnderADeadlineInWorkAlikeEveryTime) {
-  const auto tight = contents_under(replay("tight", {"--deadline-ms", "3"}));
+  const auto tight = contents_under(replay("tight", {"--deadline-ms", "0.5"}));
   const auto summary = nlohmann::json::parse(tight.at("summary.json"));
   EXPECT_GT(summary["sections"]["skipped"], 0);
-  EXPECT_EQ(tight, contents_under(replay("again", {"--deadline-ms", "3", "--threads", "2"})));
+  EXPECT_EQ(tight, contents_under(replay("again", {"--deadline-ms", "0.5", "--threads", "2"})));
 }
 
 TEST_F(ReplayCommand, RefusesAbsurdOptionsInOneLine) {
