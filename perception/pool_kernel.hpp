@@ -38,8 +38,8 @@ struct PoolSource {
 };
 PoolSource source_of(const PlanePool& pool);
 
-/// Fills `out` with the points of the source that are marked with `wanted`, in their order. `out` may be the pool
-/// that is the source.
+/// Fills `out` with the points of the source that are marked with `wanted`, in their order. `out` may be the
+/// pool that is the source.
 void take_points(const PoolSource& source, std::span<const Claim> claims, Claim wanted, PlanePool& out);
 
 }  // namespace floornav
