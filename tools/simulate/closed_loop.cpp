@@ -1,9 +1,13 @@
 #include "tools/simulate/closed_loop.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "floornav/goal_t.hpp"
 #include "lcmtypes/channels.hpp"
@@ -13,6 +17,7 @@
 #include "runtime/process/replay_executor.hpp"
 #include "tools/simulate/drive_base.hpp"
 #include "tools/simulate/path_follower.hpp"
+#include "tools/simulate/true_map.hpp"
 #include "tools/simulator/depth_sensor.hpp"
 #include "tools/simulator/drive.hpp"
 #include "tools/simulator/messages.hpp"
@@ -32,8 +37,10 @@ constexpr Micros kGoalPeriod = 500ms;
 constexpr Micros kControlPeriod = 50ms;
 constexpr Micros kLookPeriod = 50ms;  ///< at collisions
 constexpr double kGoalTolerance_m = 0.2;
-constexpr double kPersonalSpace_m = 0.9;  ///< from the robot's centre
-constexpr double kGoalSlack_m = 0.1;      ///< for the noise of what the robot believes
+constexpr double kPersonalSpace_m =
+    1.2;  ///< between the middles of robot and person: half a metre between their hulls
+constexpr double kGoalSlack_m = 0.1;   ///< for the noise of what the robot believes
+constexpr double kSamePlace_m = 0.05;  ///< as the place where a run ended
 constexpr double kSecondsPerMetre = 8.0;
 constexpr double kSecondsAtLeast = 60.0;
 constexpr double kElsewhere_m = 0.15;  ///< beside the path before: another way
@@ -65,12 +72,14 @@ class ClosedLoop {
   ClosedLoop(const RandomWorld& world, const RobotSettings& robot, const ClosedLoopSettings& settings,
              std::uint64_t seed, RunRecord* record)
       : world_(world),
+        robot_(robot),
         settings_(settings),
         record_(record),
         perception_({}, robot, serial_),
         mapper_({}, robot),
         planner_({}, robot),
-        executor_({&perception_, &mapper_, &planner_},
+        executor_(settings.known_map ? std::vector<Node*>{&planner_}
+                                     : std::vector<Node*>{&perception_, &mapper_, &planner_},
                   [this](const EncodedMessage& message, Micros now) { hear(message, now); }),
         sensor_(settings.sensor, random_key({seed, kSensor})),
         odometry_(settings.pose_noise, random_key({seed, kOdometry})),
@@ -80,7 +89,8 @@ class ClosedLoop {
         out_({"simulate", 1}),
         shortest_m_(shortest_way_m(world.truth, robot.radius_m, {0, 0}, *world.scene.goal_m, kGoalTolerance_m)
                         .value_or(world.scene.goal_m->norm())),
-        people_s_(world.scene.people.size(), 0.0) {}
+        people_s_(world.scene.people.size(), 0.0),
+        waited_(world.scene.people.size(), Micros(0)) {}
 
   ClosedLoopResult run() {
     ClosedLoopResult result;
@@ -117,9 +127,31 @@ class ClosedLoop {
       const Person& person = world_.scene.people[i];
       const double next_s = people_s_[i] + seconds_of(kStep);
       const double then = (person.place_m(next_s) - robot).norm();
-      if (then > kPersonalSpace_m || then > (person.place_m(people_s_[i]) - robot).norm())
-        people_s_[i] = next_s;
+      const bool goes_on = then > kPersonalSpace_m || then > (person.place_m(people_s_[i]) - robot).norm();
+      if (goes_on) people_s_[i] = next_s;
+      waited_[i] = goes_on ? Micros(0) : waited_[i] + kStep;
     }
+  }
+
+  /// What happened between the robot and the person nearest to it.
+  [[nodiscard]] std::string meeting() const {
+    const Eigen::Vector2d robot = base_.state().position_m;
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < people_s_.size(); ++i)
+      if ((place_of(i) - robot).norm() < (place_of(nearest) - robot).norm()) nearest = i;
+    const Eigen::Vector2d way = place_of(nearest) - robot;
+    const Eigen::Vector2d ahead = base_.state().ahead;
+    const double bearing_rad = std::atan2(ahead.x() * way.y() - ahead.y() * way.x(), ahead.dot(way));
+    return fmt::format(
+        "hit a person {:.2f} m away, {:.0f} deg to the left, who {}; robot {:.2f} m/s, turning {:.2f} rad/s",
+        way.norm(), bearing_rad * 180.0 / std::numbers::pi,
+        waited_[nearest] > Micros(0) ? fmt::format("had waited {:.1f} s", seconds_of(waited_[nearest]))
+                                     : std::string("walked"),
+        base_.speed_mps(), base_.turn_radps());
+  }
+
+  [[nodiscard]] Eigen::Vector2d place_of(std::size_t person) const {
+    return world_.scene.people[person].place_m(people_s_[person]);
   }
 
   std::string look_for_trouble() {
@@ -129,7 +161,7 @@ class ClosedLoop {
     Shapes people;
     people.ground = world_.scene.fixed.ground;
     people.cylinders = world_.scene.people_at(people_s_);
-    return base_.touched(people).empty() ? "" : "hit a person";
+    return base_.touched(people).empty() ? "" : meeting();
   }
 
   [[nodiscard]] Shapes world_now() const {
@@ -155,9 +187,12 @@ class ClosedLoop {
     if (result.reason.empty() && follower_.path()) result.reason = follower_.path()->reason;
     result.seconds = seconds_of(now_);
     result.travelled_m = base_.travelled_m();
-    result.shortest_m = shortest_m_;
     result.replans = replans_;
     result.end_m = base_.state().position_m;
+    result.shortest_m = shortest_m_;
+    if (outcome == Outcome::kReached)
+      result.shortest_m = shortest_way_m(world_.truth, robot_.radius_m, {0, 0}, result.end_m, kSamePlace_m)
+                              .value_or(shortest_m_);
     return result;
   }
 
@@ -170,10 +205,7 @@ class ClosedLoop {
       send(settings_.pose_latency_s);
     }
     if (now_ % micros_of(1.0 / settings_.sensor.rate_hz) == Micros(0)) {
-      const auto pixels = sensor_.measure(world_now(), body(), frame_);
-      const bool is_kinect = settings_.sensor.kind == SensorKind::kKinect;
-      out_.publish(is_kinect ? channel::kKinectCloud : channel::kBumblebeeCloud,
-                   cloud_message(sensor_, pixels, utime_us, frame_++));
+      settings_.known_map ? tell_map(utime_us) : render(utime_us);
       send(settings_.cloud_latency_s);
     }
     if (now_ % kGoalPeriod == Micros(0)) {
@@ -186,6 +218,24 @@ class ClosedLoop {
       goal.tolerance = static_cast<float>(kGoalTolerance_m);
       out_.publish(channel::kGoal, goal);
       send(0.0);
+    }
+  }
+
+  void render(std::int64_t utime_us) {
+    const auto pixels = sensor_.measure(world_now(), body(), frame_);
+    const bool is_kinect = settings_.sensor.kind == SensorKind::kKinect;
+    out_.publish(is_kinect ? channel::kKinectCloud : channel::kBumblebeeCloud,
+                 cloud_message(sensor_, pixels, utime_us, frame_++));
+  }
+
+  /// The true map once, then a sign of life.
+  void tell_map(std::int64_t utime_us) {
+    const GridMap map = true_map(world_.truth);
+    const auto tiles = frame_++ == 0 ? map.sorted_tiles() : std::vector<CellIndex>{};
+    const auto step_m = static_cast<float>(robot_.max_step_m);
+    for (grid_map_t& message : to_messages(map, tiles, {utime_us, step_m, body()})) {
+      if (record_ != nullptr) record_->map.apply(message);
+      out_.publish(channel::kGridMap, message);
     }
   }
 
@@ -248,6 +298,7 @@ class ClosedLoop {
   }
 
   const RandomWorld& world_;
+  const RobotSettings& robot_;
   const ClosedLoopSettings& settings_;
   RunRecord* record_;
   Serial serial_;
@@ -264,6 +315,7 @@ class ClosedLoop {
   double shortest_m_;
 
   std::vector<double> people_s_;  ///< how long each has walked
+  std::vector<Micros> waited_;    ///< for how long each has waited for the robot, 0: walks
   Micros now_{0};
   Micros last_motion_{0};
   std::int64_t frame_ = 0;

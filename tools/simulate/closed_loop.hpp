@@ -15,7 +15,8 @@
 namespace floornav {
 
 struct ClosedLoopSettings {
-  SensorSpec sensor;  ///< its rate is the closed loop's
+  SensorSpec sensor;       ///< its rate is the closed loop's
+  bool known_map = false;  ///< the planner is told the true map; there is no sensor, perception or mapper
   PoseNoise pose_noise;
   double cloud_latency_s = 0.05;
   double pose_latency_s = 0.01;
@@ -32,7 +33,8 @@ struct ClosedLoopResult {
   std::string reason;  ///< of the last PATH, or what was hit
   double seconds = 0;  ///< virtual
   double travelled_m = 0;
-  double shortest_m = 0;  ///< on the true map, for the robot's circle, to within the goal's tolerance
+  double shortest_m = 0;  ///< on the true map, for the robot's circle, to where the run reached the goal;
+                          ///< else to within its tolerance
   int replans = 0;        ///< paths that led elsewhere than the one before
   Eigen::Vector2d end_m{0, 0};
 };

@@ -39,6 +39,15 @@ TEST(ClosedLoop, DrivesRoundABoxToTheGoal) {
   EXPECT_LT(result.travelled_m, 1.5 * result.shortest_m);
 }
 
+TEST(ClosedLoop, WithTheTrueMapTheWayIsHardlyLongerThanTheShortest) {
+  const RandomWorld world = world_of("\n  - box: {center_m: [2.2, 0.1], size_m: [0.5, 0.8, 0.5]}\n");
+  ClosedLoopSettings settings = small_sensor();
+  settings.known_map = true;
+  const ClosedLoopResult result = drive_world(world, power_bot(), settings, 1, nullptr);
+  EXPECT_EQ(result.outcome, Outcome::kReached) << result.reason;
+  EXPECT_LT(result.travelled_m, 1.1 * result.shortest_m);
+}
+
 TEST(ClosedLoop, StopsBeforeAWallWithoutAWayRound) {
   const RandomWorld world = world_of(
       "\n  - wall: {from_m: [2.5, -3], to_m: [2.5, 3], height_m: 1}\n"
