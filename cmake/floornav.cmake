@@ -9,11 +9,14 @@ if(FLOORNAV_SANITIZE)
   target_link_options(floornav_options INTERFACE -fsanitize=${FLOORNAV_SANITIZE})
 endif()
 
-# floornav_library(NAME SOURCES ... LINK ...): static library floornav_NAME, alias floornav::NAME.
+# floornav_library(NAME SOURCES ... LINK ...): static library floornav_NAME, alias floornav::NAME. A source *_kernel.cpp
+# is compiled once for every instruction set (Highway), which a unity build cannot do.
 function(floornav_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(floornav_${name} STATIC ${ARG_SOURCES})
   add_library(floornav::${name} ALIAS floornav_${name})
+  list(FILTER ARG_SOURCES INCLUDE REGEX "_kernel\\.cpp$")
+  set_source_files_properties(${ARG_SOURCES} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_link_libraries(floornav_${name} PRIVATE $<BUILD_INTERFACE:floornav_options> PUBLIC ${ARG_LINK})
 endfunction()
 

@@ -13,7 +13,7 @@ namespace {
 /// Points that are off a plane by up to this many thresholds, where it holds most of the points, are its
 /// noise.
 constexpr float kNoiseBand = 1.5F;
-constexpr float kReachSlack_m = 0.05F;
+constexpr float kPointReachSlack_m = 0.05F;
 /// A plane is taken as parallel to the section's floor unless its points deny it: 0.1 % of the chi square
 /// distribution with two degrees of freedom.
 constexpr double kParallelCost = 13.8;
@@ -55,7 +55,7 @@ struct SectionPlaneFinder::Search {
         (view.T_world_sensor.translation() - view.T_world_body.translation()).cast<float>();
     scratch.claims.resize(scratch.pool.size());
     find_reachable(scratch.pool, view.T_world_sensor.linear().cast<float>(), sensor, finder.reach_,
-                   kReachSlack_m, scratch.claims);
+                   kPointReachSlack_m, scratch.claims);
     take_points(source_of(scratch.pool), scratch.claims, Claim::kPoint, scratch.floor_pool);
   }
 

@@ -34,10 +34,6 @@ Plan refusal(PlanStatus status, std::string reason) {
   return plan;
 }
 
-GridPoint centre(GridCell cell) {
-  return {static_cast<double>(cell.x), static_cast<double>(cell.y)};
-}
-
 double distance(GridPoint a, GridPoint b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }

@@ -10,10 +10,6 @@
 namespace floornav {
 namespace {
 
-GridPoint centre(GridCell cell) {
-  return {static_cast<double>(cell.x), static_cast<double>(cell.y)};
-}
-
 double heading_between(GridPoint a, GridPoint b) {
   return std::atan2(b.y - a.y, b.x - a.x);
 }

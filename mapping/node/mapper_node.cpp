@@ -9,6 +9,7 @@
 #include "lcmtypes/channels.hpp"
 #include "mapping/node/terrain_map_message.hpp"
 #include "runtime/process/health.hpp"
+#include "runtime/process/pose_message.hpp"
 
 namespace floornav {
 namespace {
@@ -19,7 +20,6 @@ constexpr std::size_t kMaxWaiting = 256;  ///< parts of frames
 constexpr Micros kLastPartWait = 300ms;   ///< then the last part is taken for lost
 constexpr std::int64_t kTicksPerTerrain = 10;
 constexpr std::int64_t kTicksUntilStale = 10;
-constexpr double kMaxPosition_m = 1e6;
 
 double stopping_distance_m(const RobotSettings& robot) {
   return robot.radius_m + robot.max_speed_mps * robot.max_speed_mps / (2 * robot.max_acceleration_mps2);
@@ -77,9 +77,7 @@ void MapperNode::accept_part(const surfels_t& message) {
 }
 
 void MapperNode::accept_pose(const pose_t& pose) {
-  const Pose T_world_body = pose_from_arrays(pose.pos, pose.orientation);
-  if (T_world_body.translation().cwiseAbs().maxCoeff() > kMaxPosition_m)
-    throw std::invalid_argument("pose: absurd position");
+  const Pose T_world_body = body_pose(pose);
   const PoseJumps::Move move = jumps_.take(pose.utime, T_world_body);
   if (move != PoseJumps::Move::kOld) newest_pose_ = T_world_body;
   if (move == PoseJumps::Move::kClockStepped) newest_jump_us_.reset();

@@ -9,6 +9,7 @@
 #include "lcmtypes/depth_codec.hpp"
 #include "perception/node/surfels_message.hpp"
 #include "runtime/process/health.hpp"
+#include "runtime/process/pose_message.hpp"
 
 namespace floornav {
 
@@ -23,7 +24,6 @@ constexpr std::int64_t kMaxPoseGap_us = 1'000'000;
 /// A cloud's utime further from the newest pose's is absurd.
 constexpr std::int64_t kMaxCloudGap_us = 10'000'000;
 constexpr std::size_t kMaxWaiting = 32;
-constexpr double kMaxPosition_m = 1e5;
 constexpr Micros kShortestPeriod = 10ms;
 constexpr Micros kLongestPeriod = 1s;
 /// Of a section's work: what is done with its cells after all sections were searched.
@@ -78,9 +78,7 @@ void PerceptionNode::accept_cloud(std::size_t camera, const depth_cloud_t& cloud
 }
 
 void PerceptionNode::accept_pose(const pose_t& pose) {
-  const Pose T_world_body = pose_from_arrays(pose.pos, pose.orientation);
-  if (T_world_body.translation().cwiseAbs().maxCoeff() > kMaxPosition_m)
-    throw std::invalid_argument("pose: absurd position");
+  const Pose T_world_body = body_pose(pose);
   if (const auto newest = poses_.newest_utime()) {
     const bool stepped = pose.utime > *newest + kMaxPoseGap_us || pose.utime < *newest - kMaxPoseGap_us;
     if (stepped) {

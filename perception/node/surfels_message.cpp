@@ -5,13 +5,14 @@
 #include <span>
 #include <stdexcept>
 
+#include "runtime/geometry/pose.hpp"
+
 namespace floornav {
 
 namespace {
 
 /// Left free in each message for the sender's name.
 constexpr int kRoomForSource_bytes = 256;
-constexpr double kMaxPosition_m = 1e6;
 constexpr float kMaxOffset_m = 1e4F;
 constexpr float kUnitTolerance = 1e-3F;
 

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "runtime/geometry/pose.hpp"
+
 namespace floornav {
 namespace {
 
-constexpr double kMaxPosition_m = 1e5;
 constexpr double kMaxTolerance_m = 100.0;
 constexpr std::size_t kRemembered = 64;
 

@@ -7,11 +7,11 @@
 #include "lcmtypes/channels.hpp"
 #include "planner/node/path_message.hpp"
 #include "runtime/process/health.hpp"
+#include "runtime/process/pose_message.hpp"
 
 namespace floornav {
 namespace {
 
-constexpr double kMaxPosition_m = 1e5;
 /// A pose's utime that steps back by more than this means that its sender's clock has stepped.
 constexpr std::int64_t kMaxPoseDisorder_us = 1'000'000;
 /// Something free must have been seen this near before the robot moves.
@@ -86,9 +86,7 @@ std::chrono::duration<double, std::milli> PlannerNode::evidence_timeout() const 
 }
 
 void PlannerNode::accept_pose(const pose_t& message, Micros now) {
-  const Pose T_world_body = pose_from_arrays(message.pos, message.orientation);
-  if (T_world_body.translation().cwiseAbs().maxCoeff() > kMaxPosition_m)
-    throw std::invalid_argument("pose: absurd position");
+  const Pose T_world_body = body_pose(message);
   const bool older = message.utime <= pose_utime_us_ && message.utime > pose_utime_us_ - kMaxPoseDisorder_us;
   if (pose_heard_ && older) {
     ++old_poses_;

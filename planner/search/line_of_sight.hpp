@@ -11,6 +11,10 @@ struct GridPoint {
   friend bool operator==(const GridPoint&, const GridPoint&) = default;
 };
 
+inline GridPoint centre(GridCell cell) {
+  return {static_cast<double>(cell.x), static_cast<double>(cell.y)};
+}
+
 /// Whether one may go straight from a to b over open edges only: the line keeps to open edges, where it runs
 /// along them, and elsewhere to squares of four cells all of whose edges, diagonals included, are open. False
 /// off the grid.
