@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "perception/row_bands.hpp"
+
 namespace floornav {
 
 namespace {
@@ -14,7 +16,6 @@ constexpr float kExpectedSigmaShare = 0.5F;
 constexpr float kShadowFactor = 1.5F;
 constexpr float kShadowMargin_px = 4.0F;
 constexpr float kBorder_px = 10.0F;
-constexpr int kRowsPerBand = 16;
 constexpr std::int32_t kMinRays = 3;  ///< without return, for a cell to miss its floor
 constexpr std::int32_t kPerReturned = 4;
 constexpr int kCellsPerPiece = 64;
@@ -53,11 +54,12 @@ void MissingFloorFinder::find(const MeasuredImage& image, const SensorView& view
     charges.count.resize(std::max(charges.count.size(), static_cast<std::size_t>(window.count())), 0);
     charges.cells.clear();
   }
+  const RowBands rows{image.height};
   const auto charge = [&](int band, int worker) {
-    for (int row = band * kRowsPerBand; row < std::min((band + 1) * kRowsPerBand, image.height); ++row)
+    for (int row = rows.first(band); row < rows.end(band); ++row)
       charge_row(image, view, row, aim, window, workers_[static_cast<std::size_t>(worker)]);
   };
-  parallel.run((image.height + kRowsPerBand - 1) / kRowsPerBand, std::ref(charge));
+  parallel.run(rows.count(), std::ref(charge));
 
   unreturned_.resize(std::max(unreturned_.size(), static_cast<std::size_t>(window.count())), 0);
   suspects_.clear();

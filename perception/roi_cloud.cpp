@@ -5,40 +5,26 @@
 #include <utility>
 
 #include "perception/pixel_blocks.hpp"
+#include "perception/row_bands.hpp"
 
 namespace floornav {
 
-namespace {
-
-constexpr int kRowsPerBand = 16;
-
-int band_count(const DepthFrame& frame) {
-  return (frame.camera.height + kRowsPerBand - 1) / kRowsPerBand;
-}
-
-}  // namespace
-
 PixelCounts RoiClipper::clip(const DepthFrame& frame, const SensorView& view, Parallel& parallel,
                              RoiCloud& cloud) {
-  const int bands = band_count(frame);
-  bands_.resize(static_cast<std::size_t>(bands));
+  const RowBands rows{frame.camera.height};
+  bands_.resize(static_cast<std::size_t>(rows.count()));
   image_.resize(frame.camera.width, frame.camera.height);
   section_of_pixel_.resize(image_.inverse_depth.size());
   find_rays(frame.camera);
-  const auto rows_of = [&](int band) {
-    return std::pair{band * kRowsPerBand, std::min((band + 1) * kRowsPerBand, frame.camera.height)};
-  };
   const auto sort = [&](int band, int) {
-    const auto [first, end] = rows_of(band);
-    sort_band(frame, view, first, end, bands_[static_cast<std::size_t>(band)]);
+    sort_band(frame, view, rows.first(band), rows.end(band), bands_[static_cast<std::size_t>(band)]);
   };
-  parallel.run(bands, std::ref(sort));
+  parallel.run(rows.count(), std::ref(sort));
   lay_out(cloud);
   const auto fill = [&](int band, int) {
-    const auto [first, end] = rows_of(band);
-    fill_band(first, end, bands_[static_cast<std::size_t>(band)], cloud);
+    fill_band(rows.first(band), rows.end(band), bands_[static_cast<std::size_t>(band)], cloud);
   };
-  parallel.run(bands, std::ref(fill));
+  parallel.run(rows.count(), std::ref(fill));
   PixelCounts total;
   for (const Band& band : bands_) {
     total.no_measurement += band.counts.no_measurement;

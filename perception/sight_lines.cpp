@@ -5,6 +5,8 @@
 #include <functional>
 #include <utility>
 
+#include "perception/row_bands.hpp"
+
 namespace floornav {
 
 namespace {
@@ -13,7 +15,6 @@ constexpr float kEndMargin_sigmas = 3.0F;
 /// Of the bins, in pitches, so that few cells under a ray are stepped over.
 constexpr double kStepPerPitch = 0.7;
 constexpr double kDirectionPerPitch = 0.35;
-constexpr int kRowsPerBand = 16;
 constexpr float kTurn = 4.0F;  ///< once around in the measure of direction_of
 
 /// Direction of the compass: grows with the angle, 4 once around, but needs no arc tangent.
@@ -50,13 +51,12 @@ void SightLineTracer::trace(const MeasuredImage& image, const SensorView& view, 
     fan.slope.resize(directions_ * distances_);
     fan.is_hit.assign(directions_, 0);
   }
-  const int height = image.height;
+  const RowBands rows{image.height};
   const auto follow = [&](int band, int worker) {
-    const int end = std::min((band + 1) * kRowsPerBand, height);
-    for (int row = band * kRowsPerBand; row < end; row += stride_px_)
+    for (int row = rows.first(band); row < rows.end(band); row += stride_px_)
       follow_row(image, view, row, fans_[static_cast<std::size_t>(worker)]);
   };
-  parallel.run((height + kRowsPerBand - 1) / kRowsPerBand, std::ref(follow));
+  parallel.run(rows.count(), std::ref(follow));
   lowest_z_m.assign(static_cast<std::size_t>(window.count()), kNone);
   for (std::size_t direction = 0; direction < directions_; ++direction)
     lower_cells(direction, view, window, lowest_z_m);
