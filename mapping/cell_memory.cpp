@@ -125,6 +125,16 @@ void CellMemory::merge(const FusionLimits& limits) {
   upper_ = Level{};
 }
 
+void CellMemory::lift(float by_m, float rise_x, float rise_y) {
+  overhead_z_m_ += by_m;
+  for (Level* const level : {&lower_, &upper_}) {
+    level->z_m += by_m;
+    if (level->column) continue;
+    level->gradient_x += rise_x;
+    level->gradient_y += rise_y;
+  }
+}
+
 bool CellMemory::has_high_top() const {
   return upper_.exists() && lower_.exists() && looks_under(lower_.z_m, upper_);
 }

@@ -71,6 +71,8 @@ class CellMemory {
     if (upper_.trusted()) return &upper_;
     return lower_.trusted() ? &lower_ : nullptr;
   }
+  /// Moves all that it holds: what was taken for the robot's pose was wrong by that.
+  void lift(float by_m, float rise_x, float rise_y);
   /// A flat top so high above the floor in the same cell that the floor can be seen from the side below it.
   [[nodiscard]] bool has_high_top() const;
   /// Takes from that top's support, after a sight line went right through it.

@@ -14,7 +14,6 @@ namespace floornav {
 namespace {
 
 constexpr std::size_t kLeastCommonCells = 50;
-constexpr double kShare = 0.9;
 constexpr float kLeastUpright = 0.87F;  // of a normal's z: 30 degrees
 
 /// A cell that frame and map both know as a plane.
@@ -105,9 +104,9 @@ HeightError find_height_error(const FloorEvidence& frame, const MapTiles& map,
   Eigen::Vector3d found(median_difference(cells), 0, 0);
   for (const double scale_m : {0.08, 0.04, 0.02, 0.02, 0.02}) found = fit(cells, found, scale_m);
   const double max_rise = std::tan(settings.max_tilt_deg * std::numbers::pi / 180);
-  error.lift_m = kShare * std::clamp(found[0], -settings.max_lift_m, settings.max_lift_m);
+  error.lift_m = std::clamp(found[0], -settings.max_lift_m, settings.max_lift_m);
   const Eigen::Vector2d rise = found.tail<2>();
-  error.rise = kShare * rise * std::min(1.0, max_rise / std::max(rise.norm(), 1e-9));
+  error.rise = rise * std::min(1.0, max_rise / std::max(rise.norm(), 1e-9));
   return error;
 }
 

@@ -31,13 +31,14 @@ struct HeightError {
   [[nodiscard]] double at(double x_m, double y_m) const {
     return lift_m + rise.dot(Eigen::Vector2d(x_m, y_m) - center_m);
   }
+  /// A part of it, 0..1.
+  [[nodiscard]] HeightError share(double part) const { return {center_m, part * lift_m, part * rise}; }
 };
 
 /// Finds by how much height, roll and pitch of a frame's pose are off, from the planes that it sees where the
 /// map already remembers one: least squares over the height differences, those of things that have changed
 /// losing their weight. 0.3 degrees of pitch are 2.6 cm at 5 m, more than a step of T; frames that agree make
-/// no false edges. Only nine tenths of what is found is corrected, so that the map follows the mean of the
-/// poses and not the first one. Too little in common: no correction.
+/// no false edges. Too little in common: no correction.
 HeightError find_height_error(const FloorEvidence& frame, const MapTiles& map,
                               const AlignmentSettings& settings);
 

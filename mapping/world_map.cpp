@@ -20,6 +20,10 @@ std::int32_t cells_along(double resolution_m, double pitch_m, const char* name) 
   return static_cast<std::int32_t>(cells);
 }
 
+/// The first frames of an epoch share their errors: the map's heights are those of their poses' mean. Later
+/// ones are moved to the map, by nine tenths, so that it follows the poses slowly.
+constexpr int kFramesToSettle = 30;
+constexpr double kShareOfFrame = 0.9;
 constexpr double kWakeTiles = 2;  ///< beyond the range of evidence: what is judged with it
 constexpr double kRestTiles = 4;
 
@@ -49,7 +53,7 @@ WorldMemory::Taken WorldMap::integrate(const FloorEvidence& evidence) {
   take_lattice(evidence.lattice.pitch_m);
   if (!evidence.T_world_body.matrix().allFinite()) throw std::invalid_argument("pose that is not finite");
   wake_around(evidence.T_world_body);
-  const HeightError error = find_height_error(evidence, tiles_, alignment_);
+  const HeightError error = split_error(find_height_error(evidence, tiles_, alignment_));
   const WorldMemory::Taken taken = memory_.take(corrected(evidence, error), judge_.floor(), tiles_);
   if (evidence.utime_us >= utime_us_) T_world_body_ = evidence.T_world_body;
   utime_us_ = std::max(utime_us_, evidence.utime_us);
@@ -69,6 +73,13 @@ std::vector<CellIndex> WorldMap::refresh_terrain() {
   tiles_.rest_outside(T_world_body_.translation().head<2>(), max_range_m_ + kRestTiles * tile_side_m(),
                       grid_.lattice().pitch_m);
   return changed;
+}
+
+HeightError WorldMap::split_error(const HeightError& error) {
+  if (settled_frames_ == kFramesToSettle) return error.share(kShareOfFrame);
+  const double share_of_map = 1.0 / ++settled_frames_;
+  if (error.lift_m != 0) memory_.lift(error.share(share_of_map), {pitch_m_}, tiles_);
+  return error.share(1 - share_of_map);
 }
 
 void WorldMap::wake_around(const Pose& T_world_body) {
@@ -100,6 +111,7 @@ void WorldMap::restore(const MapMemory& memory) {
   }
   start_epoch();
   tiles_ = std::move(restored);
+  settled_frames_ = kFramesToSettle;
   utime_us_ = memory.utime_us;
   T_world_body_ = memory.T_world_body;
   for (MapTile* tile : tiles_.wake_all()) memory_.take_woken(*tile);
@@ -123,6 +135,7 @@ void WorldMap::start_epoch() {
   grid_.clear();
   terrain_.clear();
   terrain_builder_.clear();
+  settled_frames_ = 0;
   ++grid_.epoch;
   ++grid_.version;
   terrain_.epoch = grid_.epoch;

@@ -62,6 +62,8 @@ class WorldMap {
  private:
   void take_lattice(double pitch_m);
   void wake_around(const Pose& T_world_body);
+  /// Which part of a frame's error is the frame's own. The rest is the map's: it is moved.
+  [[nodiscard]] HeightError split_error(const HeightError& error);
   [[nodiscard]] double tile_side_m() const { return grid_.lattice().pitch_m * MapTile::kSide; }
 
   AlignmentSettings alignment_;
@@ -74,6 +76,7 @@ class WorldMap {
   TerrainBuilder terrain_builder_;
   double pitch_m_ = 0;  ///< of the evidence's lattice, 0: none yet
   std::int32_t cells_per_height_ = 1;
+  int settled_frames_ = 0;  ///< of this epoch, up to kFramesToSettle
   std::int64_t utime_us_ = 0;
   Pose T_world_body_ = Pose::Identity();
 };

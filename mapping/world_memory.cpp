@@ -96,6 +96,21 @@ void WorldMemory::touch(MapTile& tile, std::size_t vertex) {
   tile.touched.set(vertex);
 }
 
+void WorldMemory::lift(const HeightError& by, const Lattice& lattice, MapTiles& tiles) {
+  const Eigen::Vector2f rise = by.rise.cast<float>();
+  for (const CellIndex index : tiles.awake()) {
+    MapTile& tile = *tiles.find(index);
+    const std::size_t per_vertex = tile.cells.size() / tile.vertices.size();
+    for (std::size_t slot = 0; slot < tile.cells.size(); ++slot) {
+      if (!tile.cells[slot].lower().exists() && std::isnan(tile.cells[slot].overhead_z_m())) continue;
+      const CellIndex cell = tiles.cell_at(tile, slot);
+      const auto by_m = static_cast<float>(by.at(lattice.center_of(cell.ix), lattice.center_of(cell.iy)));
+      tile.cells[slot].lift(by_m, rise.x(), rise.y());
+      touch(tile, slot / per_vertex);
+    }
+  }
+}
+
 void WorldMemory::take_woken(MapTile& tile) {
   touched_.push_back(tile.index);
   tile.high_tops =

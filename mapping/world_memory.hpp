@@ -7,6 +7,7 @@
 
 #include "mapping/evidence_reader.hpp"
 #include "mapping/floor_height.hpp"
+#include "mapping/frame_alignment.hpp"
 #include "mapping/map_tiles.hpp"
 #include "mapping/settings.hpp"
 #include "perception/evidence.hpp"
@@ -26,6 +27,8 @@ class WorldMemory {
   /// `floor` tells what hangs above the robot.
   Taken take(const FloorEvidence& evidence, const FloorHeight& floor, MapTiles& tiles);
 
+  /// Adds a plane of heights to all that is remembered and does not rest.
+  void lift(const HeightError& by, const Lattice& lattice, MapTiles& tiles);
   /// A tile that has rested: all of it is to be judged.
   void take_woken(MapTile& tile);
   /// Tiles with evidence since the last call, sorted.

@@ -9,6 +9,7 @@
 
 #include "runtime/process/thread_pool.hpp"
 #include "tools/bench/map_accuracy.hpp"
+#include "tools/bench/map_change.hpp"
 #include "tools/bench/map_cost.hpp"
 
 namespace floornav {
@@ -20,9 +21,12 @@ constexpr double kBytesGoal_per_m2 = 8000;
 constexpr double kBlockedGoal = 0.01;
 constexpr double kFreeGoal = 0.001;
 constexpr double kHeightGoal_cm = 0.3;
+constexpr double kTrailGoal = 0.01;
+constexpr int kFramesGoal = 3;
 
 struct CommandOptions {
   MapAccuracyOptions accuracy;
+  MapChangeOptions change;
   double large_m2 = 100'000;
   int frames = 60;
   int threads = 2;
@@ -40,6 +44,7 @@ struct Figures {
   FuseCost fuse;
   std::vector<MapSizeCost> sizes;
   MapAccuracy accuracy;
+  MapChange change;
 };
 
 const char* verdict(bool holds) {
@@ -86,6 +91,15 @@ void print_accuracy(const MapAccuracyOptions& options, const MapAccuracy& a) {
       height_cm, kHeightGoal_cm, verdict(height_cm <= kHeightGoal_cm), rms_cm(a.shape_square_m2, a.heights));
 }
 
+void print_change(const MapChangeOptions& options, const MapChange& c) {
+  fmt::print("\n{} walks of a person through the view, then a box put down; the worst\n", options.walks);
+  fmt::print("floor blocked 1 s after    {:.2f} % (mean {:.2f}; goal {} %: {})\n", 100 * c.trail,
+             100 * c.trail_mean, 100 * kTrailGoal, verdict(c.trail <= kTrailGoal));
+  fmt::print("a new box is in the map    after {} frames (goal {}: {})\n", c.frames_until_blocked,
+             kFramesGoal, verdict(c.frames_until_blocked <= kFramesGoal));
+  fmt::print("a standing box' cells lost {:.1f} %\n", 100 * c.eroded);
+}
+
 nlohmann::json json_of(const Figures& f) {
   nlohmann::json sizes = nlohmann::json::array();
   for (const MapSizeCost& size : f.sizes)
@@ -103,25 +117,31 @@ nlohmann::json json_of(const Figures& f) {
           {"undrivable_free", share(a.undrivable_free, a.undrivable)},
           {"undrivable_inside_free", share(a.undrivable_inside_free, a.undrivable_inside)},
           {"unseen", share(a.unseen, a.in_view)},
+          {"trail", f.change.trail},
+          {"frames_until_blocked", f.change.frames_until_blocked},
+          {"eroded", f.change.eroded},
           {"height_rms_cm", rms_cm(a.square_m2, a.heights)},
           {"height_shape_rms_cm", rms_cm(a.shape_square_m2, a.heights)}};
 }
 
-void run(const CommandOptions& options) {
+void run(CommandOptions& options) {
   constexpr double kSmall_m2 = 100;
   constexpr int kRepeats = 4;
   ThreadPool pool(options.threads);
   Figures figures;
+  options.change.seed = options.accuracy.seed;
   const std::vector<FloorEvidence> frames = kinect_evidence(options.frames);
   figures.fuse = measure_fuse(frames, kRepeats);
   if (options.large_m2 > 0) figures.sizes = measure_map_sizes(frames, {kSmall_m2, options.large_m2});
   if (options.accuracy.worlds > 0) figures.accuracy = measure_map_accuracy(options.accuracy, pool);
+  if (options.change.walks > 0) figures.change = measure_map_change(options.change, pool);
   if (options.json) {
     fmt::print("{}\n", json_of(figures).dump());
     return;
   }
   print_costs(figures);
   if (options.accuracy.worlds > 0) print_accuracy(options.accuracy, figures.accuracy);
+  if (options.change.walks > 0) print_change(options.change, figures.change);
   fmt::print("\nsteps of 1 cm after ten frames, and heights as in Table 1: floornav-bench table1\n");
 }
 
@@ -135,6 +155,9 @@ void add_mapping_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--frames", o->accuracy.frames, "Frames in each world")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--walks", o->change.walks, "People who walk through; 0: none")
+      ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   command->add_option("--street-frames", o->frames, "Frames that are timed")
       ->check(CLI::Range(2, 1000))

@@ -82,6 +82,7 @@ class Key {
 };
 
 constexpr Stroke kTrajectoryStroke{kTrajectory, 1.8, 0.9};
+constexpr Stroke kRoadStroke{kPath, 1.6, 0.9};
 constexpr Stroke kAssumedStroke{kInk, 1.5, 0.8, 5};
 constexpr Stroke kTruthStroke{kTruth, 1.3, 0.9};
 
@@ -92,6 +93,7 @@ void draw_key(TopView& view, const MapPicture& picture) {
   key.swatch(cell_color(VertexState::kBlocked, 0.5), cell_color(VertexState::kBlocked, 1),
              "blocked, out of reach");
   key.swatch(cell_color(VertexState::kUnknown, 0), cell_color(VertexState::kUnknown, 0), "unknown");
+  if (!picture.roads.empty()) key.line(kRoadStroke, "roadmap");
   if (!picture.trajectory.empty()) key.line(kTrajectoryStroke, "robot's way");
   if (picture.path.size() > 1) key.line({kPath, 3.5}, "path");
   if (picture.goal) key.goal("goal");
@@ -109,6 +111,7 @@ void write_map_png(const MapPicture& picture, const std::filesystem::path& file)
                 .subtitle = picture.subtitle});
   paint_cells(view, picture.map);
   view.frame();
+  for (const auto& road : picture.roads) view.line(road, kRoadStroke, kTrajectoryGap_m);
   view.line(picture.trajectory, kTrajectoryStroke, kTrajectoryGap_m);
   for (const auto& outline : picture.true_outlines)
     view.line(outline, kTruthStroke, std::numeric_limits<double>::infinity());

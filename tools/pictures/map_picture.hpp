@@ -23,6 +23,7 @@ struct MapPicture {
   MapRaster map;
   std::vector<Eigen::Vector2d> trajectory;  ///< of the body
   std::vector<Eigen::Vector2d> path;
+  std::vector<std::vector<Eigen::Vector2d>> roads;  ///< of a roadmap
   std::optional<RobotMark> robot;
   std::optional<Eigen::Vector2d> goal;
   std::optional<AssumedDisc> assumed_floor;
