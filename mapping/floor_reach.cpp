@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace floornav {
 namespace {
@@ -31,9 +30,8 @@ void for_each_in_ring(std::int32_t ring, Visit visit) {
 
 }  // namespace
 
-FloorReach::FloorReach(float max_step_m, float resolution_m, float max_slope_deg)
-    : max_step_m_(max_step_m),
-      rise_per_vertex_m_(resolution_m * std::tan(max_slope_deg * std::numbers::pi_v<float> / 180.0F)) {
+FloorReach::FloorReach(float max_step_m, float resolution_m, float max_rise)
+    : max_step_m_(max_step_m), rise_per_vertex_m_(resolution_m * max_rise) {
   constexpr float kContact_m = 0.25F;
   contact_range_ = std::clamp(static_cast<std::int32_t>(std::lround(kContact_m / resolution_m)), 2, 10);
 }

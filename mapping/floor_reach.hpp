@@ -12,8 +12,8 @@ namespace floornav {
 /// diagonal is never open where the ways around it are closed.
 class FloorReach {
  public:
-  /// `max_slope_deg`: of the robot.
-  FloorReach(float max_step_m, float resolution_m, float max_slope_deg);
+  /// `max_rise`: per metre, of the steepest floor that the robot drives.
+  FloorReach(float max_step_m, float resolution_m, float max_rise);
 
   /// Grows the robot's floor (Vertex::kFloor) anew over open steps through the tiles of `work`, from the
   /// seeds and from the floor of the tiles around, which stays as it was. Tiles that the floor grew into

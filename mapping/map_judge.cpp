@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "mapping/belief.hpp"
 #include "mapping/floor_seeds.hpp"
+#include "mapping/robot_limits.hpp"
 
 namespace floornav {
 namespace {
@@ -86,10 +86,10 @@ void add_known_floor(MapTile& tile, std::vector<VertexRef>& seeds) {
 
 MapJudge::MapJudge(const MappingSettings& settings, const RobotSettings& robot)
     : settings_(settings),
-      rule_{static_cast<float>(robot.max_step_m), static_cast<float>(settings.resolution_m)},
-      reach_(rule_.max_step_m, rule_.resolution_m, static_cast<float>(robot.max_slope_deg)),
+      rule_{static_cast<float>(step_limit_m(robot)), static_cast<float>(settings.resolution_m)},
+      reach_(rule_.max_step_m, rule_.resolution_m, static_cast<float>(steepest_rise(robot))),
       floor_(settings.resolution_m),
-      max_rise_(static_cast<float>(std::tan(robot.max_slope_deg * std::numbers::pi / 180))) {}
+      max_rise_(static_cast<float>(steepest_rise(robot))) {}
 
 bool MapJudge::summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) const {
   const std::size_t per_vertex = tile.cells.size() / tile.vertices.size();

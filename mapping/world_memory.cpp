@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "mapping/robot_limits.hpp"
+
 namespace floornav {
 namespace {
 
@@ -15,9 +17,9 @@ float square(double value) {
 
 WorldMemory::WorldMemory(const MappingSettings& settings, const RobotSettings& robot)
     : settings_(settings),
-      reader_(square(settings.view_sigma_m), static_cast<float>(robot.max_step_m)),
-      limits_{.gate_m = static_cast<float>(robot.max_step_m / 2),
-              .ray_margin_m = static_cast<float>(robot.max_step_m),
+      reader_(square(settings.view_sigma_m), static_cast<float>(step_limit_m(robot))),
+      limits_{.gate_m = static_cast<float>(step_limit_m(robot) / 2),
+              .ray_margin_m = static_cast<float>(step_limit_m(robot)),
               .memory_var_m2 = square(settings.memory_sigma_m)},
       overhead_m_(static_cast<float>(robot.height_m + settings.overhead_margin_m)) {}
 

@@ -127,6 +127,7 @@ TEST(MapMemory, AnotherRobotJudgesTheSameMapByItsOwnLimits) {
   EXPECT_EQ(seen.grid().state(on_box), VertexState::kBlocked);
   RobotSettings climber;
   climber.max_step_m = 0.06;
+  climber.ground_clearance_m = 0.08;
   WorldMap other(MappingSettings{}, climber);
   other.restore(seen.memory());
   EXPECT_EQ(other.grid().state(on_box), VertexState::kFree);

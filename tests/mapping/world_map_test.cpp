@@ -252,6 +252,26 @@ TEST(WorldMap, TooSteepASlopeIsBlocked) {
   EXPECT_EQ(count(map, {1.5, 2.5, -1, 1}), (Counts{.blocked = 20 * 40}));
 }
 
+TEST(WorldMap, TheRobotsChassisAndItsTippingLimitWhatItsWheelsCouldTake) {
+  const Scene step = [](double x_m, double) { return Ground{x_m > 2 ? 0.03 : 0.0}; };
+  const Scene ramp = [](double x_m, double) { return Ground{0.15 * x_m, 0.15, 0}; };
+  RobotSettings sturdy;
+  sturdy.max_step_m = 0.035;
+  sturdy.max_slope_deg = 12;
+  RobotSettings low = sturdy;
+  low.ground_clearance_m = 0.025;
+  RobotSettings top_heavy = sturdy;
+  top_heavy.center_of_gravity_m = 1.0;
+  const auto free_at = [](const Scene& scene, const RobotSettings& robot, double x_m) {
+    const WorldMap map = mapped({see(scene), see(scene), see(scene)}, {}, robot);
+    return map.grid().state(map.grid().lattice().cell_of(x_m, 0.025)) == VertexState::kFree;
+  };
+  EXPECT_TRUE(free_at(step, sturdy, 3));
+  EXPECT_FALSE(free_at(step, low, 3));
+  EXPECT_TRUE(free_at(ramp, sturdy, 0.5));
+  EXPECT_FALSE(free_at(ramp, top_heavy, 0.5));
+}
+
 TEST(WorldMap, GroundBelowAnEdgeIsBlocked) {
   const Area below{2.0, 4.0, -1, 1};
   const WorldMap map = mapped({see(with_block(flat(), below, -0.17))});

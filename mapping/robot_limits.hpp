@@ -1,0 +1,26 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "runtime/geometry/robot.hpp"
+
+namespace floornav {
+
+/// T of eq. (2), m: what the wheels take and the chassis clears.
+inline double step_limit_m(const RobotSettings& robot) {
+  return std::min(robot.max_step_m, robot.ground_clearance_m);
+}
+
+/// Rise per metre of the steepest floor: what the robot drives, and on which it does not tip over sideways in
+/// its quickest turn. On a slope it tips where height x (rise + v w / g) exceeds half the track.
+inline double steepest_rise(const RobotSettings& robot) {
+  constexpr double kGravity_mps2 = 9.81;
+  const double by_drive = std::tan(robot.max_slope_deg * std::numbers::pi / 180);
+  const double turning = robot.max_speed_mps * robot.max_turn_rate_radps / kGravity_mps2;
+  const double by_tipping = 0.5 * robot.track_m / robot.center_of_gravity_m - turning;
+  return std::clamp(by_tipping, 0.0, by_drive);
+}
+
+}  // namespace floornav
