@@ -39,8 +39,8 @@ constexpr Micros kLookPeriod = 50ms;  ///< at collisions
 constexpr double kGoalTolerance_m = 0.2;
 constexpr double kPersonalSpace_m =
     1.2;  ///< between the middles of robot and person: half a metre between their hulls
-constexpr double kGoalSlack_m = 0.1;   ///< for the noise of what the robot believes
-constexpr double kSamePlace_m = 0.05;  ///< as the place where a run ended
+constexpr double kGoalSlack_m = 0.1;      ///< for the noise of what the robot believes
+constexpr double kEndTolerance_m = 0.05;  ///< as the place where a run ended
 constexpr double kSecondsPerMetre = 8.0;
 constexpr double kSecondsAtLeast = 60.0;
 constexpr double kElsewhere_m = 0.15;  ///< beside the path before: another way
@@ -191,7 +191,7 @@ class ClosedLoop {
     result.end_m = base_.state().position_m;
     result.shortest_m = shortest_m_;
     if (outcome == Outcome::kReached)
-      result.shortest_m = shortest_way_m(world_.truth, robot_.radius_m, {0, 0}, result.end_m, kSamePlace_m)
+      result.shortest_m = shortest_way_m(world_.truth, robot_.radius_m, {0, 0}, result.end_m, kEndTolerance_m)
                               .value_or(shortest_m_);
     return result;
   }
