@@ -7,7 +7,7 @@ namespace {
 
 TEST(MapChange, PeopleLeaveNoTrailANewBoxIsSeenAtOnceAndAStandingOneStays) {
   Serial serial;
-  const MapChange change = measure_map_change({.walks = 3, .width = 160, .seed = 11}, serial);
+  const MapChange change = measure_map_change({.walks = 2, .width = 320, .seed = 11}, serial);
   EXPECT_LE(change.trail, 0.01);
   EXPECT_LE(change.frames_until_blocked, 3);
   EXPECT_GE(change.frames_until_blocked, 1);
