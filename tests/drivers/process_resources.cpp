@@ -1,5 +1,6 @@
 #include "tests/drivers/process_resources.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <thread>
@@ -36,6 +37,11 @@ ProcessResources ProcessResources::settled(const ProcessResources& before) {
     found = now();
   }
   return found;
+}
+
+ProcessResources most_of(const ProcessResources& a, const ProcessResources& b) {
+  return {std::max(a.resident_kb, b.resident_kb), std::max(a.threads, b.threads),
+          std::max(a.descriptors, b.descriptors)};
 }
 
 }  // namespace floornav

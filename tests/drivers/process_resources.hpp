@@ -14,4 +14,7 @@ struct ProcessResources {
   static ProcessResources settled(const ProcessResources& before);
 };
 
+/// The larger of the two, of each kind.
+ProcessResources most_of(const ProcessResources& a, const ProcessResources& b);
+
 }  // namespace floornav

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <thread>
 
 #include <fmt/format.h>
@@ -13,26 +12,14 @@
 #include "drivers/bumblebee/node/firewire_camera.hpp"
 #include "lcmtypes/depth_cloud.hpp"
 #include "tests/drivers/bumblebee/bumblebee_rig.hpp"
-#include "tests/drivers/process_resources.hpp"
+#include "tests/drivers/fault_timing.hpp"
+#include "tests/drivers/reconnects.hpp"
 
 namespace floornav {
 namespace {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
-
-bool long_form() {
-  return std::getenv("FLOORNAV_LONG") != nullptr;
-}
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-void measured(const char* what, double ms, double promised_ms) {
-  fmt::print("[ MEASURED ] {}: {:.0f} ms\n", what, ms);
-  EXPECT_TRUE(ms < promised_ms || !long_form()) << what << " takes " << ms << " ms";
-}
 
 /// What a cloud shows against the exact scene.
 struct Seen {
@@ -350,25 +337,8 @@ TEST_F(BumblebeeFaults, ReconnectsLeakNothing) {
   constexpr int kSettle = 5;
   const int reconnects = long_form() ? 500 : 15;
   start();
-  ProcessResources before;
-  for (int i = 0; i < reconnects + kSettle; ++i) {
-    rig.bus.forget_clouds();
-    ASSERT_TRUE(rig.wait_for_clouds(1)) << i;
-    if (i == kSettle) before = ProcessResources::now();
-    rig.camera().unplug();
-    const auto deadline = Clock::now() + 20s;
-    while (rig.status().trouble.empty() && Clock::now() < deadline) std::this_thread::sleep_for(1ms);
-    rig.camera().plug();
-  }
-  rig.bus.forget_clouds();
-  ASSERT_TRUE(rig.wait_for_clouds(1));
-  const ProcessResources after = ProcessResources::settled(before);
-  fmt::print("[ MEASURED ] {} reconnects: resident {} -> {} kB, threads {} -> {}, descriptors {} -> {}\n",
-             reconnects, before.resident_kb, after.resident_kb, before.threads, after.threads,
-             before.descriptors, after.descriptors);
-  EXPECT_LE(after.threads, before.threads);
-  EXPECT_LE(after.descriptors, before.descriptors);
-  EXPECT_LT(after.resident_kb - before.resident_kb, 2 * kLibraryLoses_kb * reconnects + 8000);
+  expect_no_leak(resources_over_reconnects(rig, rig.camera(), kSettle, reconnects),
+                 2 * kLibraryLoses_kb * reconnects + 8000);
 }
 
 }  // namespace

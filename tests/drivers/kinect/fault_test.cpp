@@ -8,8 +8,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/drivers/fault_timing.hpp"
 #include "tests/drivers/kinect/driver_rig.hpp"
-#include "tests/drivers/process_resources.hpp"
+#include "tests/drivers/reconnects.hpp"
 
 namespace floornav {
 namespace {
@@ -20,19 +21,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double kReopened_ms = 3000;
 constexpr double kTold_ms = 1500;  // after the silence of 0.5 s that tells a pause from a fault
 constexpr auto kPatience = 20s;
-
-bool long_form() {
-  return std::getenv("FLOORNAV_LONG") != nullptr;
-}
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-void measured(const char* what, double ms, double promised_ms) {
-  fmt::print("[ MEASURED ] {}: {:.0f} ms\n", what, ms);
-  EXPECT_TRUE(ms < promised_ms || !long_form()) << what << " takes " << ms << " ms";
-}
 
 /// Waits until clouds come again and says how long that took.
 double time_to_clouds(DriverRig& rig, Clock::time_point start) {
@@ -225,26 +213,9 @@ TEST(KinectReconnects, LeakNothing) {
   room.camera = {71.975F, 71.975F, 39.5F, 29.5F, 80, 60};
   DriverRig rig(room);
   rig.start();
-  ProcessResources before;
-  for (int i = 0; i < reconnects + kSettle; ++i) {
-    rig.bus.forget_clouds();
-    ASSERT_TRUE(rig.wait_for_clouds(1, kPatience)) << i;
-    if (i == kSettle) before = ProcessResources::now();
-    rig.kinect().unplug();
-    const auto deadline = Clock::now() + kPatience;
-    while (rig.status().trouble.empty() && Clock::now() < deadline) std::this_thread::sleep_for(1ms);
-    rig.kinect().plug();
-  }
-  rig.bus.forget_clouds();
-  ASSERT_TRUE(rig.wait_for_clouds(1, kPatience));
-  const ProcessResources after = ProcessResources::settled(before);
-  fmt::print("[ MEASURED ] {} reconnects: resident {} -> {} kB, threads {} -> {}, descriptors {} -> {}\n",
-             reconnects, before.resident_kb, after.resident_kb, before.threads, after.threads,
-             before.descriptors, after.descriptors);
+  const auto found = resources_over_reconnects(rig, rig.kinect(), kSettle, reconnects);
   EXPECT_GE(rig.status().opened, reconnects + kSettle + 1);
-  EXPECT_LE(after.threads, before.threads);
-  EXPECT_LE(after.descriptors, before.descriptors);
-  EXPECT_LT(after.resident_kb - before.resident_kb, 2 * kOpenNiLoses_kb * reconnects + 1000);
+  expect_no_leak(found, 2 * kOpenNiLoses_kb * reconnects + 1000);
 }
 
 }  // namespace
