@@ -19,7 +19,11 @@ constexpr double kNear_m = 3.0;
 constexpr double kFloorRange_m = 6.0;
 constexpr int kBlockMatchingWindow_px = 9;
 
-constexpr std::array<SectionSettings, 4> kGrids{{{3, 2}, {4, 3}, {8, 6}, {12, 9}}};
+constexpr std::size_t kRows = 5;
+/// The paper's four, and its eq. (5).
+std::array<SectionSettings, kRows> section_rows() {
+  return {{{3, 2}, {4, 3}, {8, 6}, {12, 9}, {.x_res = 4, .y_res = 3, .layout = "error_growth"}}};
+}
 
 constexpr std::array<std::array<PaperRow, 4>, 2> kPaper{{
     {{{0.51, 5.31}, {0.44, 4.97}, {0.44, 4.88}, {0.40, 4.74}}},
@@ -46,22 +50,24 @@ void visit_vertices(const GridMap& map, const Visit& visit) {
   }
 }
 
-using RowsOfGrids = std::array<Table1Row, kGrids.size()>;
+using Rows = std::array<Table1Row, kRows>;
 
-RowsOfGrids measure(SensorKind kind, bool correlated, std::uint64_t key) {
+Rows measure(SensorKind kind, bool correlated, std::uint64_t key) {
   const SensorSpec model = bench_sensor(kind, correlated);
   const ObstacleCourse course = random_course(model, covered_area(kind), key);
   DepthSensor sensor(model, key);
   const auto pixels = sensor.measure(course.shapes, course.T_world_body, 0);
-  RowsOfGrids rows;
-  for (std::size_t i = 0; i < kGrids.size(); ++i) {
+  const auto sections = section_rows();
+  Rows rows;
+  for (std::size_t i = 0; i < kRows; ++i) {
     rows[i].sensor = kind;
     rows[i].correlated = correlated;
-    rows[i].x_res = kGrids[i].x_res;
-    rows[i].y_res = kGrids[i].y_res;
+    rows[i].x_res = sections[i].x_res;
+    rows[i].y_res = sections[i].y_res;
+    rows[i].error_growth = sections[i].layout == "error_growth";
     MappingSettings mapping;
     mapping.resolution_m = kVertex_m;
-    FrameStack stack(perception_for(kind, kGrids[i]), mapping, RobotSettings{});
+    FrameStack stack(perception_for(kind, sections[i]), mapping, RobotSettings{});
     stack.see(sensor, pixels, course.T_world_body);
     judge(course, stack.published(), rows[i]);
   }
@@ -86,11 +92,20 @@ void HeightErrors::add(const HeightErrors& more) {
   worst_m = std::max(worst_m, more.worst_m);
 }
 
+void TopErrors::add(const TopErrors& more) {
+  flat.add(more.flat);
+  sloped.add(more.sloped);
+}
+
+HeightErrors TopErrors::all() const {
+  HeightErrors errors = flat;
+  errors.add(sloped);
+  return errors;
+}
+
 void Table1Row::add(const Table1Row& more) {
   near.add(more.near);
   far.add(more.far);
-  flat.add(more.flat);
-  sloped.add(more.sloped);
   floor_square_m2 += more.floor_square_m2;
   floor_vertices += more.floor_vertices;
 }
@@ -133,15 +148,16 @@ void judge(const ObstacleCourse& course, const GridMap& map, Table1Row& row) {
   });
   for (std::size_t i = 0; i < course.obstacles.size(); ++i) {
     const Obstacle& obstacle = course.obstacles[i];
-    (obstacle.distance_m < kNear_m ? row.near : row.far).add(highest[i], obstacle.height_m);
-    (obstacle.sloped ? row.sloped : row.flat).add(highest[i], obstacle.height_m);
+    TopErrors& errors = obstacle.distance_m < kNear_m ? row.near : row.far;
+    (obstacle.sloped ? errors.sloped : errors.flat).add(highest[i], obstacle.height_m);
   }
 }
 
 PaperRow paper_row(SensorKind sensor, int x_res, int y_res) {
-  for (std::size_t i = 0; i < kGrids.size(); ++i)
-    if (kGrids[i].x_res == x_res && kGrids[i].y_res == y_res)
-      return kPaper[sensor == SensorKind::kKinect ? 0 : 1][i];
+  const auto sections = section_rows();
+  const auto& rows = kPaper[sensor == SensorKind::kKinect ? 0 : 1];
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (sections[i].x_res == x_res && sections[i].y_res == y_res) return rows[i];
   return {};
 }
 
@@ -152,12 +168,12 @@ std::vector<Table1Row> measure_table1(const Table1Options& options, Parallel& pa
     for (const bool correlated : {false, true}) {
       progress(fmt::format("Table 1: {}, {} noise, {} configurations", name_of(sensor),
                            noise_name(correlated), options.configurations));
-      std::vector<RowsOfGrids> measured(static_cast<std::size_t>(options.configurations));
+      std::vector<Rows> measured(static_cast<std::size_t>(options.configurations));
       parallel.run(options.configurations, [&](int number, int) {
         const auto n = static_cast<std::size_t>(number);
         measured[n] = measure(sensor, correlated, random_key({options.seed, n}));
       });
-      for (std::size_t i = 0; i < kGrids.size(); ++i) {
+      for (std::size_t i = 0; i < kRows; ++i) {
         rows.push_back(measured.front()[i]);
         for (std::size_t n = 1; n < measured.size(); ++n) rows.back().add(measured[n][i]);
       }

@@ -24,16 +24,24 @@ struct HeightErrors {
   [[nodiscard]] double mean_cm() const { return count > 0 ? 100.0 * sum_m / count : 0.0; }
 };
 
+/// Of obstacles with level and with sloped tops.
+struct TopErrors {
+  HeightErrors flat;
+  HeightErrors sloped;
+
+  void add(const TopErrors& more);
+  [[nodiscard]] HeightErrors all() const;
+};
+
 /// One row of Table 1 as measured here.
 struct Table1Row {
   SensorKind sensor = SensorKind::kKinect;
   int x_res = 4;
   int y_res = 3;
   bool correlated = false;
-  HeightErrors near;    ///< < 3 m
-  HeightErrors far;     ///< 3..5.5 m
-  HeightErrors flat;    ///< all distances, level tops
-  HeightErrors sloped;  ///< all distances, sloped tops
+  bool error_growth = false;  ///< sections after eq. (5) instead of equally long ones
+  TopErrors near;             ///< < 3 m
+  TopErrors far;              ///< 3..5.5 m
   double floor_square_m2 = 0;
   int floor_vertices = 0;  ///< up to 6 m from the robot
 
@@ -53,7 +61,7 @@ SensorSpec bench_sensor(SensorKind sensor, bool correlated);
 /// Adds what a map, published after frames of a course, says of its obstacles and its floor.
 void judge(const ObstacleCourse& course, const GridMap& map, Table1Row& row);
 
-/// What the paper gives for a sensor and a section grid, cm.
+/// What the paper gives for a sensor and a grid of equally long sections, cm.
 struct PaperRow {
   double near_cm = 0;
   double far_cm = 0;

@@ -25,41 +25,49 @@ double floor_rms_cm(const Table1Row& row) {
   return row.floor_vertices > 0 ? 100.0 * std::sqrt(row.floor_square_m2 / row.floor_vertices) : 0.0;
 }
 
+/// Mean of all beside the paper's; of level and of sloped tops; the worst.
+std::string text_of(const TopErrors& errors, double paper_cm) {
+  const HeightErrors all = errors.all();
+  return fmt::format("{:5.2f} [{:4.2f}] {:5.2f} {:5.2f} {:6.1f} ", all.mean_cm(), paper_cm,
+                     errors.flat.mean_cm(), errors.sloped.mean_cm(), 100.0 * all.worst_m);
+}
+
 void print_text(const std::vector<Table1Row>& rows) {
   fmt::print(
-      "Height error of obstacles in cm, one frame (mean, worst, missed of all); the paper's mean in "
-      "brackets\n");
-  fmt::print("{:<10}{:<13}{:<7}| {:<32}| {:<32}| {:<6}{:<8}| floor RMS\n", "sensor", "noise", "x, y", "< 3 m",
-             "3 .. 5.5 m", "flat", "sloped");
+      "Height error of obstacles in cm, one frame: mean of all [the paper's], of level tops, of sloped tops, "
+      "worst. Last row: sections after eq. (5)\n");
+  fmt::print("{:<10}{:<13}{:<6}| {:<33}| {:<33}| {:<8}| floor RMS\n", "sensor", "noise", "x, y", "< 3 m",
+             "3 .. 5.5 m", "missed");
   for (const Table1Row& row : rows) {
     const PaperRow paper = paper_row(row.sensor, row.x_res, row.y_res);
-    const auto cell = [](const HeightErrors& e, double paper_cm) {
-      return fmt::format("{:5.2f} [{:4.2f}] worst {:5.1f}, {:2}/{:<3}", e.mean_cm(), paper_cm,
-                         100.0 * e.worst_m, e.missed, e.count);
-    };
-    fmt::print("{:<10}{:<13}{:2}, {:<3}| {:<32}| {:<32}| {:<6.2f}{:<8.2f}| {:.2f}\n", name_of(row.sensor),
-               noise_name(row.correlated), row.x_res, row.y_res, cell(row.near, paper.near_cm),
-               cell(row.far, paper.far_cm), row.flat.mean_cm(), row.sloped.mean_cm(), floor_rms_cm(row));
+    fmt::print("{:<10}{:<13}{:2}, {:<2}| {}| {}| {:>2}/{:<5}| {:.2f}{}\n", name_of(row.sensor),
+               noise_name(row.correlated), row.x_res, row.y_res, text_of(row.near, paper.near_cm),
+               text_of(row.far, paper.far_cm), row.near.all().missed + row.far.all().missed,
+               row.near.all().count + row.far.all().count, floor_rms_cm(row), row.error_growth ? " (5)" : "");
   }
+}
+
+nlohmann::json json_of(const TopErrors& errors, double paper_cm) {
+  const HeightErrors all = errors.all();
+  return {{"mean_cm", all.mean_cm()},
+          {"paper_cm", paper_cm},
+          {"flat_cm", errors.flat.mean_cm()},
+          {"sloped_cm", errors.sloped.mean_cm()},
+          {"worst_cm", 100.0 * all.worst_m},
+          {"missed", all.missed},
+          {"count", all.count}};
 }
 
 nlohmann::json json_of(const Table1Row& row) {
   const PaperRow paper = paper_row(row.sensor, row.x_res, row.y_res);
-  const double all = row.near.count + row.far.count;
   return {{"sensor", name_of(row.sensor)},
           {"x_res", row.x_res},
           {"y_res", row.y_res},
+          {"sections", row.error_growth ? "error_growth" : "uniform"},
           {"noise", noise_name(row.correlated)},
-          {"near_cm", row.near.mean_cm()},
-          {"far_cm", row.far.mean_cm()},
-          {"missed", (row.near.missed + row.far.missed) / all},
-          {"near_worst_cm", 100.0 * row.near.worst_m},
-          {"far_worst_cm", 100.0 * row.far.worst_m},
-          {"flat_cm", row.flat.mean_cm()},
-          {"sloped_cm", row.sloped.mean_cm()},
-          {"floor_rms_cm", floor_rms_cm(row)},
-          {"paper_near_cm", paper.near_cm},
-          {"paper_far_cm", paper.far_cm}};
+          {"near", json_of(row.near, paper.near_cm)},
+          {"far", json_of(row.far, paper.far_cm)},
+          {"floor_rms_cm", floor_rms_cm(row)}};
 }
 
 void print_steps(const std::vector<StepRow>& rows) {
@@ -93,10 +101,12 @@ void print_trade_offs(const std::vector<TradeOff>& trade_offs) {
       "\nThe four knobs, Kinect, one frame (mean error in cm, missed of "
       "all)\n{:<20}{:<26}{:>8}{:>8}{:>9}{:>8}\n",
       "knob", "setting", "< 3 m", "3..5.5", "missed", "ms");
-  for (const TradeOff& t : trade_offs)
-    fmt::print("{:<20}{:<26}{:>8.2f}{:>8.2f}{:>5}/{:<4}{:>7.1f}\n", t.knob, t.setting,
-               t.errors.near.mean_cm(), t.errors.far.mean_cm(), t.errors.near.missed + t.errors.far.missed,
-               t.errors.near.count + t.errors.far.count, t.perception_ms);
+  for (const TradeOff& t : trade_offs) {
+    const HeightErrors near = t.errors.near.all();
+    const HeightErrors far = t.errors.far.all();
+    fmt::print("{:<20}{:<26}{:>8.2f}{:>8.2f}{:>5}/{:<4}{:>7.1f}\n", t.knob, t.setting, near.mean_cm(),
+               far.mean_cm(), near.missed + far.missed, near.count + far.count, t.perception_ms);
+  }
 }
 
 void print_claims(const MethodClaims& claims) {
@@ -112,9 +122,9 @@ void print_claims(const MethodClaims& claims) {
 nlohmann::json json_of(const TradeOff& t) {
   return {{"knob", t.knob},
           {"setting", t.setting},
-          {"near_cm", t.errors.near.mean_cm()},
-          {"far_cm", t.errors.far.mean_cm()},
-          {"missed", t.errors.near.missed + t.errors.far.missed},
+          {"near_cm", t.errors.near.all().mean_cm()},
+          {"far_cm", t.errors.far.all().mean_cm()},
+          {"missed", t.errors.near.all().missed + t.errors.far.all().missed},
           {"ms", t.perception_ms}};
 }
 

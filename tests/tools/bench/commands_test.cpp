@@ -23,12 +23,12 @@ TEST(Table1Command, PrintsTheRowsThatBenchmarksReadTheSameOnAnyNumberOfThreads) 
   const Outcome once = run_program(words);
   ASSERT_EQ(once.exit_code, 0) << once.err;
   const auto result = nlohmann::json::parse(once.out);
-  ASSERT_EQ(result["rows"].size(), 8U);  // four section grids, two noises
+  ASSERT_EQ(result["rows"].size(), 10U);  // four section grids and eq. (5), two noises
   for (const auto& row : result["rows"]) {
     EXPECT_EQ(row["sensor"], "kinect");
     EXPECT_GT(row["x_res"].get<int>() * row["y_res"].get<int>(), 0);
-    EXPECT_GT(row["near_cm"].get<double>() + row["far_cm"].get<double>(), 0.0);
-    EXPECT_LE(row["missed"].get<double>(), 1.0);
+    EXPECT_GT(row["near"]["mean_cm"].get<double>() + row["far"]["mean_cm"].get<double>(), 0.0);
+    EXPECT_LE(row["near"]["missed"].get<int>(), row["near"]["count"].get<int>());
   }
   EXPECT_TRUE(result["steps"].is_array());
   std::vector<std::string> alone = words;
