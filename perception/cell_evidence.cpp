@@ -46,8 +46,7 @@ bool something_above(std::span<const CellPoint> points, std::int16_t surfel) {
 /// The higher one of two surfels; of two that lie closer than noise throws a point, the one with more points.
 bool outranks(const DecidingSurfel& a, const DecidingSurfel& b) {
   const DecidingSurfel& lower = a.mean_z_m < b.mean_z_m ? a : b;
-  const float thrown_m = kAboveSigmas * std::sqrt(lower.rise.var_m2 / static_cast<float>(lower.rise.points));
-  if (std::abs(a.mean_z_m - b.mean_z_m) > thrown_m) return a.mean_z_m > b.mean_z_m;
+  if (std::abs(a.mean_z_m - b.mean_z_m) > lower.thrown_m()) return a.mean_z_m > b.mean_z_m;
   return a.rise.points > b.rise.points;
 }
 
@@ -66,8 +65,7 @@ float quantile(std::vector<float>& values, float share) {
 float robust_top(std::span<const CellPoint> points, float plane_top, std::vector<float>& heights) {
   heights.clear();
   for (const CellPoint& p : points) {
-    const float noise = p.surfel < 0 ? kAboveSigmas * std::sqrt(p.var_m2) : 0.0F;
-    if (p.z_m > plane_top + noise) heights.push_back(p.z_m);
+    if (p.z_m > plane_top + kAboveSigmas * std::sqrt(p.var_m2)) heights.push_back(p.z_m);
   }
   const float least = kMinAboveShare * static_cast<float>(points.size());
   if (heights.size() < kMinAbovePoints || static_cast<float>(heights.size()) < least) return plane_top;
@@ -75,6 +73,10 @@ float robust_top(std::span<const CellPoint> points, float plane_top, std::vector
 }
 
 }  // namespace
+
+float DecidingSurfel::thrown_m() const {
+  return kAboveSigmas * std::sqrt(rise.var_m2 / static_cast<float>(rise.points));
+}
 
 /// Of one or two points one on a surfel is enough, where nothing stands above it: far floor has no more than
 /// that in a cell.

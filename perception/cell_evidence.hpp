@@ -23,6 +23,9 @@ struct DecidingSurfel {
   float mean_z_m = 0.0F;     ///< of its points as moved onto the plane
   float max_z_m = 0.0F;
   CellRise rise;  ///< its group is left to the caller
+
+  /// Noise throws a point no higher than this.
+  [[nodiscard]] float thrown_m() const;
 };
 
 /// Finds the surfel that decides a cell: the highest that holds a fair share of its points. Of two surfels

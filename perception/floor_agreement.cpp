@@ -10,8 +10,8 @@ namespace {
 
 /// Pixels this close together, each way, count as one measurement.
 constexpr double kAlike_px = 24.0;
-/// 1 sigma between the tilts of a section's floor and the common one, rad (1 degree).
-constexpr double kTiltSigma = 0.0175;
+/// 1 sigma between the tilts of a section's floor and the common one, rad (0.3 degrees).
+constexpr double kTiltSigma = 0.005;
 /// Contradiction: 1 % of the chi square distribution with two degrees of freedom.
 constexpr double kContradiction = 9.2;
 /// Arm of the cross of points that stands for the common tilt, in distances of the sensor from the plane.

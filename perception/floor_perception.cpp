@@ -9,6 +9,7 @@
 
 #include "perception/noise_correlation.hpp"
 #include "perception/surfels.hpp"
+#include "perception/top_edge.hpp"
 
 namespace floornav {
 
@@ -304,6 +305,8 @@ void FloorPerception::summarize_seen_cell(std::size_t seen, const SensorView& vi
   const float rise_m =
       deciders_[seen].surfel < 0 ? 0.0F : significant_rise(rises_, window_, number, significance, noise);
   summarize_cell(points, deciders_[seen], rise_m, scratch, cell);
+  if (cell.surfel >= 0)
+    cell.top_z_m = side_top_z_m(cell.top_z_m, deciders_[seen].thrown_m(), cell, view, evidence_);
 }
 
 /// Keeps the floors' normals for the next frame, and tells what became of the sections.
