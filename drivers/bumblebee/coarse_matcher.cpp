@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
 
 namespace floornav {
 namespace {
@@ -37,9 +36,10 @@ cv::Ptr<cv::StereoMatcher> block(int least, int count) {
 
 CoarseMatcher::CoarseMatcher(const Method& method, cv::Size size, const std::vector<RowSearch>& search)
     : method_(method), size_(size.width / method.shrink, size.height / method.shrink) {
-  constexpr int kBand = 48;  // rows of the smaller images
-  for (int first = 0; first < size_.height; first += kBand) {
-    const cv::Range rows(first, std::min(first + kBand, size_.height));
+  const int band_rows =
+      192 / method.shrink;  // thinner ones search less: what is behind the region finds no place
+  for (int first = 0; first < size_.height; first += band_rows) {
+    const cv::Range rows(first, std::min(first + band_rows, size_.height));
     RowSearch all;
     for (int y = rows.start * method.shrink; y < rows.end * method.shrink; ++y)
       all.add(search.at(static_cast<std::size_t>(y)));
@@ -48,11 +48,11 @@ CoarseMatcher::CoarseMatcher(const Method& method, cv::Size size, const std::vec
 }
 
 void CoarseMatcher::add_band(cv::Range rows, const RowSearch& search) {
-  const int around = method_.block ? 8 : 12;  // rows of the block, and of paths that come from above
+  constexpr int kAround = 8;  // rows of the block, and of paths that come from above
   const auto shrink = static_cast<float>(method_.shrink);
   Band band;
   band.rows = rows;
-  band.seen = {std::max(0, rows.start - around), std::min(size_.height, rows.end + around)};
+  band.seen = {std::max(0, rows.start - kAround), std::min(size_.height, rows.end + kAround)};
   band.least = std::max(0, static_cast<int>(std::floor(search.least_px / shrink)) - 1);
   const int most = static_cast<int>(std::ceil(search.most_px / shrink)) + 1;
   band.count = (most - band.least + kDisparityStep) / kDisparityStep * kDisparityStep;
@@ -74,24 +74,14 @@ cv::Range CoarseMatcher::seen_rows() const {
   return {bands_.front().seen.start * method_.shrink, bands_.back().seen.end * method_.shrink};
 }
 
-void CoarseMatcher::shrink(const cv::Mat& left, const cv::Mat& right, cv::Range rows) {
-  const cv::Range whole(rows.start * method_.shrink, rows.end * method_.shrink);
-  const auto fill = [&](const cv::Mat& from, cv::Mat1b& to) {
-    cv::Mat part = to.rowRange(rows);
-    cv::resize(from.rowRange(whole), part, part.size(), 0, 0, cv::INTER_AREA);
-  };
-  fill(left, left_);
-  fill(right, right_);
-}
-
 /// The images get a margin at the left: OpenCV finds nothing in the first columns, as many as the largest
 /// disparity, though the other eye sees all from the least one on.
-void CoarseMatcher::match_band(Band& band) {
+void CoarseMatcher::match_band(const cv::Mat1b& left, const cv::Mat1b& right, Band& band) {
   const auto with_margin = [&](const cv::Mat1b& from, cv::Mat& to) {
     cv::copyMakeBorder(from.rowRange(band.seen), to, 0, 0, band.count, 0, cv::BORDER_REPLICATE);
   };
-  with_margin(left_, band.left);
-  with_margin(right_, band.right);
+  with_margin(left, band.left);
+  with_margin(right, band.right);
   band.matcher->compute(band.left, band.right, band.found);
   const cv::Range inner(band.rows.start - band.seen.start, band.rows.end - band.seen.start);
   const cv::Mat part = band.found(inner, {band.count, band.found.cols});
@@ -104,34 +94,15 @@ void CoarseMatcher::match_band(Band& band) {
   }
 }
 
-void CoarseMatcher::write(cv::Range rows) {
-  constexpr float kUnit_px = 1.0F / kUnits;
-  for (int y = rows.start; y < rows.end; ++y)
-    for (int x = 0; x < found_.cols; ++x) disparity_(y, x) = static_cast<float>(found_(y, x)) * kUnit_px;
-}
-
-void CoarseMatcher::match(const cv::Mat& left, const cv::Mat& right, Parallel& parallel) {
-  disparity_.create(size_);
+void CoarseMatcher::match(const cv::Mat1b& left, const cv::Mat1b& right, Parallel& parallel,
+                          cv::Mat1f& disparity) {
+  disparity.create(size_);
   found_.create(size_);
-  if (bands_.empty()) return;
-  const auto bands = static_cast<int>(bands_.size());
-  if (method_.shrink == 1) {
-    left_ = left;
-    right_ = right;
-  } else {
-    left_.create(size_);
-    right_.create(size_);
-    parallel.run(bands, [&](int i, int) {
-      const bool first = i == 0;
-      const bool last = i + 1 == bands;
-      const Band& band = bands_[static_cast<std::size_t>(i)];
-      shrink(left, right, {first ? band.seen.start : band.rows.start, last ? band.seen.end : band.rows.end});
-    });
-  }
   found_.setTo(kNone);
-  parallel.run(bands, [&](int i, int) { match_band(bands_[static_cast<std::size_t>(i)]); });
+  parallel.run(static_cast<int>(bands_.size()),
+               [&](int i, int) { match_band(left, right, bands_[static_cast<std::size_t>(i)]); });
   cv::filterSpeckles(found_, kNone, method_.speckle_px / (method_.shrink * method_.shrink), kUnits);
-  write({0, size_.height});
+  found_.convertTo(disparity, CV_32F, 1.0 / kUnits);
 }
 
 }  // namespace floornav

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <opencv2/calib3d.hpp>
@@ -25,19 +24,14 @@ class CoarseMatcher {
   /// than the image is wide.
   CoarseMatcher(const Method& method, cv::Size size, const std::vector<RowSearch>& search);
 
-  /// Rectified images, 8-bit grey. Only seen_rows() are looked at.
-  void match(const cv::Mat& left, const cv::Mat& right, Parallel& parallel);
+  /// Rectified images `shrink` times smaller than the whole ones, 8-bit grey, of which only seen_rows() are
+  /// looked at. `disparity` becomes as large as they: px of theirs; 0: none.
+  void match(const cv::Mat1b& left, const cv::Mat1b& right, Parallel& parallel, cv::Mat1f& disparity);
 
   /// From the first row that is searched to the last; of the whole images.
   [[nodiscard]] cv::Range rows() const;
   /// Those and the ones around them that help.
   [[nodiscard]] cv::Range seen_rows() const;
-
-  // What match() has made: images `shrink` times smaller.
-  [[nodiscard]] const cv::Mat1b& left() const { return left_; }
-  [[nodiscard]] const cv::Mat1b& right() const { return right_; }
-  /// Of the smaller images, px; 0: none.
-  cv::Mat1f& disparity() { return disparity_; }
 
  private:
   /// Rows that are matched together; of the smaller images.
@@ -51,16 +45,12 @@ class CoarseMatcher {
   };
 
   void add_band(cv::Range rows, const RowSearch& search);
-  void shrink(const cv::Mat& left, const cv::Mat& right, cv::Range rows);
-  void match_band(Band& band);
-  void write(cv::Range rows);
+  void match_band(const cv::Mat1b& left, const cv::Mat1b& right, Band& band);
 
   Method method_;
   cv::Size size_;  ///< of the smaller images
   std::vector<Band> bands_;
-  cv::Mat1b left_, right_;
   cv::Mat_<short> found_;  ///< 1/16 px
-  cv::Mat1f disparity_;
 };
 
 }  // namespace floornav

@@ -1,9 +1,11 @@
 #pragma once
 
-#include <array>
+#include <cstdint>
 #include <vector>
 
 #include <opencv2/core.hpp>
+
+#include "drivers/bumblebee/refinement_kernel.hpp"
 
 namespace floornav {
 
@@ -26,23 +28,12 @@ class DisparityRefinement {
               cv::Mat1f& refined, cv::Mat1f& sigma);
 
  private:
-  /// Sums over windows: pixels known, difference, gradient and their products.
-  enum Sum { kKnown, kRest, kGradient, kProduct, kSquares, kRestSquares, kSums };
-  /// What a row adds to them.
-  struct Row {
-    std::vector<float> known, rest, gradient;
-  };
-
-  void compare(const std::uint8_t* left, const std::uint8_t* right, const float* disparity, int columns,
-               Row& row) const;
-  void add(const Row& row, float sign);
-  void slide();
-  void solve(const float* disparity, float* refined, float* sigma) const;
+  void begin(int columns);
 
   int reach_;
-  std::vector<Row> ring_;                         ///< the rows that are in the sums
-  std::array<std::vector<float>, kSums> column_;  ///< sums over the window's rows, with margins
-  std::array<std::vector<float>, kSums> window_;  ///< sums over the window
+  std::vector<ComparedRow> ring_;  ///< the rows that are in the sums, and one that comes
+  ColumnSums sums_;
+  std::vector<std::int32_t> packed_;
 };
 
 }  // namespace floornav

@@ -8,7 +8,6 @@
 
 #include "drivers/bumblebee/coarse_matcher.hpp"
 #include "drivers/bumblebee/disparity_refinement.hpp"
-#include "drivers/bumblebee/disparity_smoothing.hpp"
 #include "drivers/bumblebee/roi_search.hpp"
 #include "runtime/geometry/parallel.hpp"
 #include "runtime/geometry/pinhole.hpp"
@@ -18,8 +17,9 @@ namespace floornav {
 
 /// How pairs of images become disparities.
 struct StereoSettings {
-  std::string matcher = "half";   ///< half: SGBM at half resolution, refined at full; sgbm: SGBM at full,
-                                  ///< refined; block: StereoBM
+  std::string matcher = "auto";   ///< half, quarter: SGBM at that resolution, refined at full; auto: quarter
+                                  ///< of images from 1024 px on, else half; sgbm: SGBM at full, refined;
+                                  ///< block: StereoBM
   double nearest_m = 0.6;         ///< of what is matched; nearer takes more time
   int refinement_window_px = 11;  ///< side of the window in which disparities are refined
   double max_sigma_px = 0.5;      ///< disparities less certain are left out
@@ -28,7 +28,7 @@ struct StereoSettings {
 
 template <class Visitor>
 void visit_settings(Visitor& visit, StereoSettings& s) {
-  visit("matcher", s.matcher, {"half", "sgbm", "block"});
+  visit("matcher", s.matcher, {"auto", "half", "quarter", "sgbm", "block"});
   visit("nearest_m", s.nearest_m, Allowed{0.1, 10.0});
   visit("refinement_window_px", s.refinement_window_px, Allowed{3, 31});
   visit("max_sigma_px", s.max_sigma_px, Allowed{0.01, 4.0});
@@ -57,28 +57,33 @@ class StereoMatcher {
   void match(const cv::Mat& left, const cv::Mat& right, Parallel& parallel, DisparityImage& image);
 
   /// The rows that get disparities.
-  [[nodiscard]] cv::Range rows() const { return rows_; }
+  [[nodiscard]] cv::Range rows() const { return coarse_.rows(); }
   /// Those and the ones around them that help.
-  [[nodiscard]] cv::Range seen_rows() const;
+  [[nodiscard]] cv::Range seen_rows() const { return coarse_.seen_rows(); }
 
  private:
-  /// What a worker refines with.
-  struct Worker {
-    DisparitySmoothing smoothing;
-    DisparityRefinement refinement;
+  /// The pair at one of its sizes; each is half of the one before.
+  struct Level {
+    cv::Range rows;       ///< that get disparities
+    cv::Range seen_rows;  ///< with those around
+    cv::Mat1b left, right;
+    cv::Mat1f disparity;  ///< px of this size; 0: none
+    cv::Mat1f sigma;      ///< 1 sigma, px
+    cv::Mat1f other;      ///< what a step reads while it writes the disparities
   };
 
-  void refine(const cv::Mat1b& left, const cv::Mat1b& right, bool smooth, Parallel& parallel,
-              cv::Mat1f& disparity);
-  void enlarge(cv::Range rows);
+  void shrink(const Level& larger, Parallel& parallel, Level& level);
+  void enlarge_from(const Level& smaller, Parallel& parallel, Level& level);
+  void check(Parallel& parallel, Level& level);
+  void smooth(Parallel& parallel, Level& level);
+  void refine(Parallel& parallel, Level& level);
   void write(cv::Range rows, DisparityImage& image) const;
 
   StereoSettings settings_;
   cv::Size size_;
-  cv::Range rows_;
   CoarseMatcher coarse_;
-  std::vector<Worker> workers_;
-  cv::Mat1f disparity_, smooth_, sigma_, small_sigma_;
+  std::vector<Level> levels_;                     ///< the whole images first, those of the coarse match last
+  std::vector<DisparityRefinement> refinements_;  ///< of each worker
 };
 
 }  // namespace floornav

@@ -137,7 +137,7 @@ void compete(const Contest& contest, const Options& options, std::vector<Result>
   const std::vector<StereoScene> scenes = stereo_scenes(rig, options.scenes, options.seed);
   const cv::Size size(contest.rig.ideal.width, contest.rig.ideal.height);
   const Rectification rectification = rectification_of(rig.calibration(), size, false, 1);
-  for (const char* matcher : {"half", "block", "sgbm"}) {
+  for (const char* matcher : {"auto", "half", "quarter", "block", "sgbm"}) {
     if (!options.full && std::string(matcher) != contest.settings.matcher) continue;
     StereoSettings settings = contest.settings;
     settings.matcher = matcher;

@@ -205,8 +205,8 @@ void add_stereo(CLI::App& app, CommonOptions& common, StereoImport& what) {
       ->required()
       ->type_name("FILE");
   command.add_option("--block", what.calibration_block, "The stereo camera's name in a BotParam file");
-  command.add_option("--matcher", what.matching.matcher, "half, sgbm or block")
-      ->check(CLI::IsMember({"half", "sgbm", "block"}))
+  command.add_option("--matcher", what.matching.matcher, "At which size pairs are matched first, or how")
+      ->check(CLI::IsMember({"auto", "half", "quarter", "sgbm", "block"}))
       ->capture_default_str();
   command.add_option("--nearest", what.matching.nearest_m, "Nearest distance that is matched, m")
       ->check(CLI::Range(0.1, 10.0))

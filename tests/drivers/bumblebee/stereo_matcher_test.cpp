@@ -1,5 +1,6 @@
 #include "drivers/bumblebee/stereo_matcher.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -8,6 +9,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "runtime/process/thread_pool.hpp"
 
 namespace floornav {
 namespace {
@@ -155,8 +158,36 @@ TEST_P(SlantedFloor, IsMatchedDenselyAndWithoutPixelLocking) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Matchers, SlantedFloor,
-                         testing::Values(Case{"half", 1}, Case{"half", 2}, Case{"half", 3}, Case{"sgbm", 1},
+                         testing::Values(Case{"half", 1}, Case{"half", 2}, Case{"half", 3},
+                                         Case{"quarter", 1}, Case{"quarter", 2}, Case{"sgbm", 1},
                                          Case{"block", 1}));
+
+class Threads : public testing::TestWithParam<const char*> {};
+
+TEST_P(Threads, MakeNoDifferenceToAnyByte) {
+  const Pair pair = render({30, 0.01, 0.06}, 7, 2.0);
+  StereoSettings settings;
+  settings.matcher = GetParam();
+  Pinhole camera;
+  camera.fx = 500;
+  const auto matched = [&](Parallel& parallel) {
+    StereoMatcher matcher(settings, camera, search_everywhere(camera, 0.12, 0.8));
+    DisparityImage image;
+    matcher.match(pair.left, pair.right, parallel, image);
+    return image;
+  };
+  Serial serial;
+  const DisparityImage alone = matched(serial);
+  ASSERT_GT(std::count_if(alone.pixels.begin(), alone.pixels.end(), [](auto p) { return p > 0; }), 100'000);
+  for (const int threads : {1, 2, 3}) {
+    ThreadPool pool(threads);
+    const DisparityImage shared = matched(pool);
+    EXPECT_EQ(shared.pixels, alone.pixels) << threads << " threads";
+    EXPECT_EQ(shared.uncertainty, alone.uncertainty) << threads << " threads";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Matchers, Threads, testing::Values("half", "quarter", "sgbm", "block"));
 
 TEST(StereoMatcher, FindsNothingWhereNothingCanBeMatched) {
   StereoMatcher matcher({}, Pinhole{}, search_everywhere(Pinhole{}, 0.12, 0.6));
