@@ -133,13 +133,13 @@ Plan Planner::search(const Pose& T_world_body, const Goal& goal, const Plan* pre
                      const Interrupt& interrupt) {
   const std::optional<Start> start = start_at(T_world_body);
   if (!start) return refusal(PlanStatus::kStartBlocked, why_start_is_blocked(T_world_body));
-  std::optional<GridCell> target = nearest_to_goal(goal, false);
+  const std::optional<GridCell> target = nearest_to_goal(goal, [&](GridCell c) { return grid_.passable(c); });
   if (!target) {
     return refusal(PlanStatus::kGoalBlocked,
                    "no room for the robot within " + in_metres(goal.tolerance_m) + " of the goal");
   }
   const GridCell from = start->way.back();
-  const SearchOutcome outcome = search_.search(grid_, from, start->heading_rad, *target, interrupt);
+  const SearchOutcome outcome = search_nearest(*start, goal, *target, interrupt);
   auto kept = previous != nullptr ? route_ahead(*previous, *start) : std::nullopt;
   Plan plan;
   if (outcome == SearchOutcome::kInterrupted) {
@@ -156,17 +156,34 @@ Plan Planner::search(const Pose& T_world_body, const Goal& goal, const Plan* pre
   }
   if (outcome == SearchOutcome::kNoPath) {
     if (search_.stuck_at_start()) return refusal(PlanStatus::kStartBlocked, "no room to turn");
-    target = nearest_to_goal(goal, true);
-    if (!target)
-      return refusal(PlanStatus::kNoPath,
-                     "obstacles shut off all within " + in_metres(goal.tolerance_m) + " of the goal");
-    search_.path_to(*target, cells_);
-  } else {
-    search_.path(cells_);
+    return refusal(PlanStatus::kNoPath,
+                   "obstacles shut off all within " + in_metres(goal.tolerance_m) + " of the goal");
   }
   plan.route = route_of_cells(*start, goal);
   if (kept && !clearly_better(plan.route, *kept, heading_of(T_world_body))) plan.route = *std::move(kept);
   return plan;
+}
+
+/// Searches to `target`, and where no way leads there to the nearest cell within the goal's tolerance that
+/// one leads to. After kFound the way is in cells_.
+SearchOutcome Planner::search_nearest(const Start& start, const Goal& goal, GridCell target,
+                                      const Interrupt& interrupt) {
+  const auto search_to = [&](GridCell cell, OnNoPath on_no_path) {
+    return search_.search(grid_, start.way.back(), start.heading_rad, cell, interrupt, on_no_path);
+  };
+  SearchOutcome outcome = search_to(target, OnNoPath::kTellEarly);
+  if (outcome == SearchOutcome::kNoPath && search_.told_early()) {
+    const auto next =
+        nearest_to_goal(goal, [&](GridCell c) { return grid_.passable(c) && !search_.on_goal_side(c); });
+    if (!next) return outcome;
+    outcome = search_to(*next, OnNoPath::kSettleAll);
+  }
+  if (outcome == SearchOutcome::kFound) search_.path(cells_);
+  if (outcome != SearchOutcome::kNoPath || search_.stuck_at_start()) return outcome;
+  const auto reached = nearest_to_goal(goal, [&](GridCell c) { return search_.reached(c); });
+  if (!reached) return outcome;
+  search_.path_to(*reached, cells_);
+  return SearchOutcome::kFound;
 }
 
 bool Planner::clearly_better(const Route& next, const Route& kept, double heading_rad) const {
@@ -208,12 +225,11 @@ std::string Planner::why_start_is_blocked(const Pose& T_world_body) const {
          in_metres(robot_.radius_m) + ", and no way leads off";
 }
 
-/// The cell nearest to the goal, within its tolerance, where the robot fits; of those that the last search
-/// reached where `reached` asks for it.
-std::optional<GridCell> Planner::nearest_to_goal(const Goal& goal, bool reached) const {
+/// The cell nearest to the goal, within its tolerance, that suits.
+std::optional<GridCell> Planner::nearest_to_goal(const Goal& goal,
+                                                 const std::function<bool(GridCell)>& suits) const {
   const double reach = std::max(goal.tolerance_m / grid_.pitch_m(), kEndCells);
-  return nearest_cell(grid_.search_grid(), grid_.point_of(goal.x_m, goal.y_m), reach,
-                      [&](GridCell c) { return reached ? search_.reached(c) : grid_.passable(c); });
+  return nearest_cell(grid_.search_grid(), grid_.point_of(goal.x_m, goal.y_m), reach, suits);
 }
 
 /// Goes before a route's corners what leads there from where the robot stands.

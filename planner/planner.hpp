@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,7 +47,10 @@ class Planner {
   };
   [[nodiscard]] std::optional<Start> start_at(const Pose& T_world_body) const;
   [[nodiscard]] std::string why_start_is_blocked(const Pose& T_world_body) const;
-  [[nodiscard]] std::optional<GridCell> nearest_to_goal(const Goal& goal, bool reached) const;
+  [[nodiscard]] std::optional<GridCell> nearest_to_goal(const Goal& goal,
+                                                        const std::function<bool(GridCell)>& suits) const;
+  SearchOutcome search_nearest(const Start& start, const Goal& goal, GridCell target,
+                               const Interrupt& interrupt);
   Plan find_route(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Plan* previous,
                   const Interrupt& interrupt);
   Plan search(const Pose& T_world_body, const Goal& goal, const Plan* previous, const Interrupt& interrupt);

@@ -46,6 +46,7 @@ void PlanningGrid::update(const GridMap& map, const CellRect& needed, const Assu
       changed.grown(std::max(blocked_gap_.reach(), step_scan_.reach() + 1)).clipped(grid);
   weigh(within_reach);
   open_edges(within_reach.grown(1).clipped(grid));
+  if (!search_.weights.empty()) blocks_.update(search_, within_reach.grown(1).clipped(grid));
   project_open_cells(within_reach.grown(2).clipped(grid));
 }
 
@@ -88,6 +89,7 @@ void PlanningGrid::start_afresh(const GridMap& map, const CellRect& needed, cons
   search_.weights.assign(uniform() ? 0 : cells, 0);
   search_.edges.assign(cells, 0);
   open_cells_.reset(search_.width, search_.height);
+  blocks_.reset(search_.width, search_.height);
   parted_cells_ = 0;
   blocked_gap_.reset(search_.width, search_.height, reach);
   weigh_gaps();

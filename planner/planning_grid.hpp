@@ -8,6 +8,8 @@
 #include "planner/gap_field.hpp"
 #include "planner/robot_outline.hpp"
 #include "planner/search/bit_grid.hpp"
+#include "planner/search/block_weights.hpp"
+#include "planner/search/grid_aids.hpp"
 #include "planner/search/line_of_sight.hpp"
 #include "planner/search/search_grid.hpp"
 #include "planner/settings.hpp"
@@ -53,6 +55,10 @@ class PlanningGrid {
   [[nodiscard]] const BitGrid& open_cells() const { return open_cells_; }
   /// Whether those are all cells that have open steps.
   [[nodiscard]] bool no_cell_parted() const { return parted_cells_ == 0; }
+  /// Of the search grid.
+  [[nodiscard]] GridAids aids() const {
+    return {no_cell_parted() ? &open_cells_ : nullptr, search_.weights.empty() ? nullptr : &blocks_};
+  }
   [[nodiscard]] double pitch_m() const { return lattice_.pitch_m; }
 
   /// The cell that holds a point (m, local frame); it may lie off the grid.
@@ -145,6 +151,7 @@ class PlanningGrid {
   GapScan step_scan_;
   SearchGrid search_;
   BitGrid open_cells_;
+  BlockWeights blocks_;
   std::int64_t parted_cells_ = 0;
 };
 

@@ -9,12 +9,11 @@ constexpr int kLooksOfQuickSearch = 200;
 }  // namespace
 
 SearchOutcome WaySearch::search(const PlanningGrid& grid, GridCell start, double heading_rad, GridCell goal,
-                                const Interrupt& interrupt) {
+                                const Interrupt& interrupt, OnNoPath on_no_path) {
   goal_ = goal;
   polygon_ = !grid.outline().is_circle();
   if (polygon_) return outline_search_.search(grid, start, heading_rad, goal, interrupt);
-  const BitGrid* const whole = grid.no_cell_parted() ? &grid.open_cells() : nullptr;
-  return grid_search_.search(grid.search_grid(), whole, start, goal, interrupt);
+  return grid_search_.search(grid.search_grid(), grid.aids(), start, goal, interrupt, on_no_path);
 }
 
 bool WaySearch::shortest(const PlanningGrid& grid, GridCell start, GridCell goal) {

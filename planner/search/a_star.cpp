@@ -1,10 +1,8 @@
 #include "planner/search/a_star.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
-#include "planner/search/canonical_steps.hpp"
 #include "planner/search/octile.hpp"
 
 namespace floornav {
@@ -15,87 +13,118 @@ namespace {
 /// for ahead.
 void fetch_soon(const SearchGrid& grid, const SearchCells::Cell* cells, std::size_t index) {
   const auto width = static_cast<std::size_t>(grid.width);
-  __builtin_prefetch(cells + index, 1);
-  if (index >= width) __builtin_prefetch(cells + index - width, 1);
-  if (index + width < grid.edges.size()) __builtin_prefetch(cells + index + width, 1);
+  const std::size_t below = index >= width ? index - width : index;
+  const std::size_t above = index + width < grid.edges.size() ? index + width : index;
+  for (const std::size_t place : {index, below, above}) {
+    __builtin_prefetch(cells + place, 1);
+    if (!grid.weights.empty()) __builtin_prefetch(grid.weights.data() + place);
+  }
   __builtin_prefetch(grid.edges.data() + index);
 }
 
 }  // namespace
 
-SearchOutcome AStar::search(const SearchGrid& grid, GridCell start, GridCell goal,
-                            const Interrupt& interrupt) {
+SearchOutcome AStar::search(const SearchGrid& grid, GridCell start, GridCell goal, const Interrupt& interrupt,
+                            const BlockWeights* blocks, OnNoPath on_no_path) {
   cells_->begin(grid.width, grid.height, start, goal);
+  grid_ = &grid;
   start_ = start;
+  goal_ = goal;
   expanded_ = 0;
+  told_by_blocks_ = false;
+  goal_side_.forget();
+  look_at_goal_side_ = on_no_path == OnNoPath::kTellEarly && grid.whole_squares;
+  bounded_ = blocks != nullptr && !grid.weights.empty();
+  if (bounded_) {
+    bounds_.begin(*blocks, grid.steps, goal);
+    if (!bounds_.reach(start, interrupt)) return SearchOutcome::kInterrupted;
+    told_by_blocks_ = on_no_path == OnNoPath::kTellEarly && bounds_.shut_off(start);
+    if (told_by_blocks_) return SearchOutcome::kNoPath;
+  }
+  // A step raises cost + heuristic by no more than twice its own cost.
   const std::uint32_t heaviest = grid.weights.empty() ? 0 : 255;
-  // A step raises cost + heuristic by at most its own cost and one diagonal step more.
-  queue_.reset(SearchGrid::weighted(grid.steps.diagonal, heaviest, heaviest) + grid.steps.diagonal + 1);
+  queue_.reset((2 * SearchGrid::weighted(grid.steps.diagonal, heaviest, heaviest) >> kBucketBits) + 2);
   if (grid.weights.empty())
-    return grid.whole_squares ? run<false, true>(grid, start, goal, interrupt)
-                              : run<false, false>(grid, start, goal, interrupt);
-  return grid.whole_squares ? run<true, true>(grid, start, goal, interrupt)
-                            : run<true, false>(grid, start, goal, interrupt);
+    return grid.whole_squares ? run<false, true>(interrupt) : run<false, false>(interrupt);
+  return grid.whole_squares ? run<true, true>(interrupt) : run<true, false>(interrupt);
+}
+
+/// Buckets of the queue hold a range of priorities: those of the goal's that could still lead to a cheaper
+/// way are looked at too before it counts as found.
+template <bool kWeighted, bool kCanonical>
+SearchOutcome AStar::run(const Interrupt& interrupt) {
+  SearchCells::Cell* const cells = cells_->data();
+  const CanonicalSteps<kWeighted> canonical(*grid_);
+  const SearchCells::Cell& goal = cells[grid_->index(goal_)];
+  cells[grid_->index(start_)] = {0, cells_->tag()};
+  push(start_, 0);
+  bool found = false;
+  std::uint32_t item = 0;
+  while (!(found && queue_.bucket_done()) && queue_.pop(item)) {
+    const GridCell at = unpack(item);
+    const std::size_t index = grid_->index(at);
+    SearchCells::Cell& cell = cells[index];
+    if ((cell.tag & kSettled) != 0) continue;
+    const bool at_goal = at == goal_;
+    if (found && !at_goal && cell.value + least_rest(at) >= goal.value) continue;
+    cell.tag |= kSettled;
+    found = found || at_goal;
+    if ((++expanded_ & (kExpansionsBetweenInterrupts - 1)) == 0) {
+      if (interrupt && interrupt()) return SearchOutcome::kInterrupted;
+      if (look_at_goal_side_) look_at_goal_side();
+      if (goal_side_.shut_in()) return SearchOutcome::kNoPath;
+    }
+    if (at_goal || cell.value > kMaxCost) continue;
+    queue_.look_ahead([&](std::uint32_t next) { fetch_soon(*grid_, cells, grid_->index(unpack(next))); });
+    expand<kWeighted, kCanonical>(canonical, at, index);
+  }
+  return found ? SearchOutcome::kFound : SearchOutcome::kNoPath;
+}
+
+void AStar::look_at_goal_side() {
+  if (expanded_ == kExpansionsBetweenInterrupts) goal_side_.begin(*grid_, *cells_, goal_);
+  goal_side_.gather(*grid_, *cells_, kExpansionsBetweenInterrupts / 4);
 }
 
 template <bool kWeighted, bool kCanonical>
-SearchOutcome AStar::run(const SearchGrid& grid, GridCell start, GridCell goal, const Interrupt& interrupt) {
-  const StepCosts steps = grid.steps;
-  const std::uint8_t* const edges = grid.edges.data();
-  const std::uint8_t* const weights = grid.weights.data();
-  const CanonicalSteps<kWeighted> canonical(grid);
+void AStar::expand(const CanonicalSteps<kWeighted>& canonical, GridCell at, std::size_t index) {
+  const SearchGrid& grid = *grid_;
   SearchCells::Cell* const cells = cells_->data();
-  const std::uint32_t number = cells_->tag();
-  const std::size_t goal_index = grid.index(goal);
-  // Beyond this a sum of costs could overflow: such cells are not expanded.
-  const std::uint32_t max_cost = kUnreached - 32 * steps.diagonal - octile(grid.width, grid.height, steps);
-  std::array<std::ptrdiff_t, 8> offsets;
-  for (std::size_t k = 0; k < 8; ++k)
-    offsets[k] = static_cast<std::ptrdiff_t>(kStepY[k]) * grid.width + kStepX[k];
-
-  cells[grid.index(start)] = {0, number};
-  queue_.push(octile(goal.x - start.x, goal.y - start.y, steps), pack(start));
-  std::uint32_t item = 0;
-  while (queue_.pop(item)) {
-    const GridCell at = unpack(item);
-    const std::size_t index = grid.index(at);
-    SearchCells::Cell& cell = cells[index];
-    if ((cell.tag & kSettled) != 0) continue;
-    cell.tag |= kSettled;
-    if (index == goal_index) return SearchOutcome::kFound;
-    if ((++expanded_ & (kExpansionsBetweenInterrupts - 1)) == 0 && interrupt && interrupt())
-      return SearchOutcome::kInterrupted;
-    if (cell.value > max_cost) continue;
-    fetch_soon(grid, cells, grid.index(unpack(queue_.next_or(item))));
-    unsigned open = edges[index];
-    if (kCanonical && (cell.tag & kFrom) != 0) open = canonical.after(index, cell.tag & kFrom);
-    for (; open != 0; open &= open - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(open));
-      const std::size_t next = index + static_cast<std::size_t>(offsets[k]);
-      const std::uint32_t base = (k & 1) != 0 ? steps.diagonal : steps.straight;
-      const std::uint32_t cost =
-          cell.value + (kWeighted ? SearchGrid::weighted(base, weights[index], weights[next]) : base);
-      const std::uint32_t from = 1U << k;
-      SearchCells::Cell& neighbour = cells[next];
-      if (neighbour.tag >= number) {  // numbers only grow: it is this search's
-        if (neighbour.value < cost || (neighbour.value == cost && (neighbour.tag & from) != 0)) continue;
-        if (neighbour.value == cost) {
-          // One more way of the same cost: it may go on where the others need not.
-          const bool waits = (neighbour.tag & kSettled) == 0;
-          if (!kCanonical) continue;
-          neighbour.tag = (neighbour.tag | from) & ~kSettled;
-          if (waits) continue;
-        } else {
-          neighbour = {cost, number | from};
-        }
-      } else {
-        neighbour = {cost, number | from};
-      }
-      const GridCell to{at.x + kStepX[k], at.y + kStepY[k]};
-      queue_.push(cost + octile(goal.x - to.x, goal.y - to.y, steps), pack(to));
-    }
+  const SearchCells::Cell cell = cells[index];
+  unsigned open = grid.edges[index];
+  if (kCanonical && (cell.tag & kFrom) != 0) open = canonical.after(index, cell.tag & kFrom);
+  for (; open != 0; open &= open - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(open));
+    const GridCell to{at.x + kStepX[k], at.y + kStepY[k]};
+    const std::size_t next = grid.index(to);
+    const std::uint32_t base = (k & 1) != 0 ? grid.steps.diagonal : grid.steps.straight;
+    const std::uint32_t cost =
+        cell.value + (kWeighted ? SearchGrid::weighted(base, grid.weights[index], grid.weights[next]) : base);
+    if (reach(cells[next], cost, 1U << k, kCanonical)) push(to, cost);
   }
-  return SearchOutcome::kNoPath;
+}
+
+/// Takes down a way to a cell; whether it is worth expanding the cell for it.
+inline bool AStar::reach(SearchCells::Cell& cell, std::uint32_t cost, std::uint32_t from, bool canonical) {
+  const std::uint32_t number = cells_->tag();
+  if (cell.tag < number || cell.value > cost) {  // numbers only grow: it is another search's, or dearer
+    cell = {cost, number | from};
+    return true;
+  }
+  if (cell.value < cost || (cell.tag & from) != 0 || !canonical) return false;
+  // One more way of the same cost: it may go on where the others need not.
+  const bool waits = (cell.tag & kSettled) == 0;
+  cell.tag = (cell.tag | from) & ~kSettled;
+  return !waits;
+}
+
+inline std::uint32_t AStar::least_rest(GridCell cell) {
+  const std::uint32_t length = octile(goal_.x - cell.x, goal_.y - cell.y, grid_->steps);
+  return bounded_ ? std::max(length, bounds_(cell)) : length;
+}
+
+inline void AStar::push(GridCell cell, std::uint32_t cost) {
+  queue_.push((cost + least_rest(cell)) >> kBucketBits, pack(cell));
 }
 
 std::uint32_t AStar::cost_of(GridCell cell) const {

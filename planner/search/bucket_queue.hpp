@@ -55,9 +55,15 @@ class BucketQueue {
     return true;
   }
 
-  /// The item that comes next within the present priority, or else `none`.
-  [[nodiscard]] std::uint32_t next_or(std::uint32_t none) const {
-    return heads_[current_] == kNone ? none : entries_[heads_[current_]].item;
+  /// The last item popped was the only one of its priority that was left.
+  [[nodiscard]] bool bucket_done() const { return heads_[current_] == kNone; }
+  /// Calls visit(item) for the two items that come next within the present priority, if there are any.
+  template <class Visit>
+  void look_ahead(const Visit& visit) const {
+    if (bucket_done()) return;
+    const Entry& next = entries_[heads_[current_]];
+    visit(next.item);
+    if (next.next != kNone) visit(entries_[next.next].item);
   }
 
  private:

@@ -18,16 +18,16 @@ GridSearch::Method GridSearch::choose(const SearchGrid& grid, const BitGrid* who
   return scattered ? Method::kAStar : Method::kJumpPoints;
 }
 
-SearchOutcome GridSearch::search(const SearchGrid& grid, const BitGrid* whole_projection, GridCell start,
-                                 GridCell goal, const Interrupt& interrupt) {
+SearchOutcome GridSearch::search(const SearchGrid& grid, const GridAids& aids, GridCell start, GridCell goal,
+                                 const Interrupt& interrupt, OnNoPath on_no_path) {
   goal_ = goal;
-  method_ = choose(grid, whole_projection);
+  method_ = choose(grid, aids.whole_projection);
   if (method_ == Method::kJumpPoints) {
-    const SearchOutcome outcome = jump_points_.search(*whole_projection, start, goal, interrupt);
+    const SearchOutcome outcome = jump_points_.search(*aids.whole_projection, start, goal, interrupt);
     if (outcome != SearchOutcome::kNoPath) return outcome;
     method_ = Method::kAStar;  // tells what else can be reached
   }
-  return a_star_.search(grid, start, goal, interrupt);
+  return a_star_.search(grid, start, goal, interrupt, aids.blocks, on_no_path);
 }
 
 SearchOutcome GridSearch::shortest(const BitGrid& open_cells, GridCell start, GridCell goal,

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/search/a_star.hpp"
-#include "planner/search/bit_grid.hpp"
+#include "planner/search/grid_aids.hpp"
 #include "planner/search/jump_point_search.hpp"
 
 namespace floornav {
@@ -18,17 +18,19 @@ class GridSearch {
   /// free cells are not scattered with small obstacles.
   [[nodiscard]] static Method choose(const SearchGrid& grid, const BitGrid* whole_projection);
 
-  /// As AStar::search; `whole_projection` is the grid's projection where that leaves out none of its cells,
-  /// else null.
-  SearchOutcome search(const SearchGrid& grid, const BitGrid* whole_projection, GridCell start, GridCell goal,
-                       const Interrupt& interrupt = {});
+  /// As AStar::search.
+  SearchOutcome search(const SearchGrid& grid, const GridAids& aids, GridCell start, GridCell goal,
+                       const Interrupt& interrupt = {}, OnNoPath on_no_path = OnNoPath::kSettleAll);
   /// By jump points whatever the costs: much quicker, and never over a closed edge.
   SearchOutcome shortest(const BitGrid& open_cells, GridCell start, GridCell goal,
                          const Interrupt& interrupt = {});
 
   /// Of the last search, after kFound. Replaces what `path` holds.
   void path(std::vector<GridCell>& path) const;
-  /// Of the last search, after kNoPath: whether a way leads to the cell.
+  /// Of the last search, after kNoPath, as AStar has it; where that was not told early, whether a way leads
+  /// to the cell.
+  [[nodiscard]] bool told_early() const { return method_ == Method::kAStar && a_star_.told_early(); }
+  [[nodiscard]] bool on_goal_side(GridCell cell) { return a_star_.on_goal_side(cell); }
   [[nodiscard]] bool reached(GridCell cell) const;
   /// Of the last search: ends at another cell that it reached.
   void path_to(GridCell cell, std::vector<GridCell>& path) const { a_star_.path_to(cell, path); }

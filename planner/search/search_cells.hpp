@@ -29,11 +29,11 @@ class SearchCells {
       throw std::invalid_argument("a search grid has at most 65535 cells along a side");
     if (!on_grid(start) || !on_grid(goal)) throw std::invalid_argument("start or goal off the search grid");
     const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    if (count > cells_.size() || number_ == kMaxNumber) {
+    if (count > cells_.size() || number_ + 2 > kMaxNumber) {
       cells_.assign(std::max(count, cells_.size()), Cell{});
       number_ = 0;
     }
-    ++number_;
+    number_ += 2;
     width_ = width;
   }
 
@@ -44,6 +44,8 @@ class SearchCells {
   }
   /// The running search's number, as a tag bears it.
   [[nodiscard]] std::uint32_t tag() const { return number_ << kFreeBits; }
+  /// A tag that is none of the running search's, nor of one before.
+  [[nodiscard]] std::uint32_t mark() const { return (number_ - 1) << kFreeBits; }
   [[nodiscard]] bool current(const Cell& cell) const { return cell.tag >> kFreeBits == number_; }
 
  private:

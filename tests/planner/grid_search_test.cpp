@@ -61,7 +61,7 @@ TEST(GridSearch, FindsTheSameLengthByEitherAndTellsWhatItReached) {
   AStar a_star;
   std::vector<GridCell> path;
   const GridCell start{1, 1}, goal{120, 100};
-  ASSERT_EQ(search.search(walls.grid, &walls.bits, start, goal), SearchOutcome::kFound);
+  ASSERT_EQ(search.search(walls.grid, {&walls.bits}, start, goal), SearchOutcome::kFound);
   ASSERT_EQ(search.method(), Method::kJumpPoints);
   search.path(path);
   EXPECT_EQ(path.front(), start);
@@ -73,7 +73,7 @@ TEST(GridSearch, FindsTheSameLengthByEitherAndTellsWhatItReached) {
   ASSERT_EQ(a_star.search(walls.grid, start, goal), SearchOutcome::kFound);
   EXPECT_EQ(cost, a_star.cost_of(goal));
   const GridCell wall{15, 0};
-  EXPECT_EQ(search.search(walls.grid, &walls.bits, start, wall), SearchOutcome::kNoPath);
+  EXPECT_EQ(search.search(walls.grid, {&walls.bits}, start, wall), SearchOutcome::kNoPath);
   EXPECT_TRUE(search.reached(goal));
   EXPECT_FALSE(search.reached(wall));
 }

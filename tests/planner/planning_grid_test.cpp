@@ -38,6 +38,7 @@ TEST_P(PlanningGridOfSeed, AfterEditsEqualsOneMadeAfresh) {
     afresh.update(map, needed, assumed);
     ASSERT_EQ(followed.search_grid().edges, afresh.search_grid().edges) << "edit " << edit;
     ASSERT_EQ(followed.search_grid().weights, afresh.search_grid().weights) << "edit " << edit;
+    ASSERT_EQ(*followed.aids().blocks, block_weights(followed.search_grid())) << "edit " << edit;
   }
 }
 

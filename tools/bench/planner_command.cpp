@@ -78,7 +78,7 @@ Solver chosen_solver(const SearchGrid& grid) {
   project(grid, *bits);
   return [&grid, bits, search = std::make_shared<GridSearch>(),
           path = std::vector<GridCell>()](const MovingAiProblem& p) mutable {
-    if (search->search(grid, bits.get(), p.start, p.goal) != SearchOutcome::kFound) return Solution{};
+    if (search->search(grid, {bits.get()}, p.start, p.goal) != SearchOutcome::kFound) return Solution{};
     search->path(path);
     return Solution{true, path_length(path), 0};
   };

@@ -50,8 +50,9 @@ GridCell any_place(const PlanningGrid& grid, std::int32_t side, RandomStream& ra
   }
 }
 
-const BitGrid* whole_projection(const PlanningGrid& grid) {
-  return grid.no_cell_parted() ? &grid.open_cells() : nullptr;
+/// As the planner calls it.
+SearchOutcome search_way(GridSearch& search, const PlanningGrid& grid, GridCell start, GridCell goal) {
+  return search.search(grid.search_grid(), grid.aids(), start, goal, {}, OnNoPath::kTellEarly);
 }
 
 /// Searches between places all over an office.
@@ -65,9 +66,7 @@ Times searches_on_office(std::int32_t side, const PlannerSettings& settings, int
   for (int i = -2; i < count; ++i) {
     const GridCell start = any_place(grid, side, random), goal = any_place(grid, side, random);
     Times warm_up;
-    (i < 0 ? warm_up : times).add([&] {
-      search.search(grid.search_grid(), whole_projection(grid), start, goal);
-    });
+    (i < 0 ? warm_up : times).add([&] { search_way(search, grid, start, goal); });
   }
   return times;
 }
@@ -89,8 +88,7 @@ Changes changes_near_robot(std::int32_t side, const PlannerSettings& settings, i
   std::vector<GridCell> path;
   while (result.afresh.us.size() < static_cast<std::size_t>(count)) {
     const GridCell start = any_place(grid, side, random), goal = any_place(grid, side, random);
-    if (search.search(grid.search_grid(), whole_projection(grid), start, goal) != SearchOutcome::kFound)
-      continue;
+    if (search_way(search, grid, start, goal) != SearchOutcome::kFound) continue;
     search.path(path);
     if (path.size() < 60) continue;
     incremental.begin(grid.search_grid(), start, goal);
@@ -101,9 +99,9 @@ Changes changes_near_robot(std::int32_t side, const PlannerSettings& settings, i
       set_block(map, low, 7, 7, state);
       result.update_and_search.add([&] {
         grid.update(map, all_of(side), {});
-        search.search(grid.search_grid(), whole_projection(grid), start, goal);
+        search_way(search, grid, start, goal);
       });
-      result.afresh.add([&] { search.search(grid.search_grid(), whole_projection(grid), start, goal); });
+      result.afresh.add([&] { search_way(search, grid, start, goal); });
       result.repaired.add([&] { incremental.repair(start, around); });
     }
   }
@@ -136,7 +134,7 @@ void print_upscaled(const std::filesystem::path& folder) {
         return GridCell{c.x * kFactor + kFactor / 2, c.y * kFactor + kFactor / 2};
       };
       const GridCell start = scaled(problems[i].start), goal = scaled(problems[i].goal);
-      chosen.add([&] { search.search(grid, &bits, start, goal); });
+      chosen.add([&] { search.search(grid, {&bits}, start, goal); });
       plain.add([&] { a_star.search(grid, start, goal); });
     }
     chosen.us.erase(chosen.us.begin());
