@@ -33,6 +33,13 @@ std::int32_t previous_stop(const std::uint64_t* stops, std::int32_t from) {
   return static_cast<std::int32_t>(w * 64) + 63 - std::countl_zero(found) - 1;
 }
 
+/// The eighth of all directions in which another cell lies, and both its sides.
+unsigned directions_towards(GridCell from, GridCell to) {
+  const bool right = to.x >= from.x, above = to.y >= from.y;
+  if (above) return right ? 0b00000111 : 0b00011100;
+  return right ? 0b11000001 : 0b01110000;
+}
+
 }  // namespace
 
 SearchOutcome JumpPointSearch::search(const BitGrid& grid, GridCell start, GridCell goal,
@@ -41,72 +48,106 @@ SearchOutcome JumpPointSearch::search(const BitGrid& grid, GridCell start, GridC
   grid_ = &grid;
   goal_ = goal;
   expanded_ = 0;
+  found_ = false;
   open_.clear();
   points_.clear();
   if (!grid.free(start) || !grid.free(goal)) return SearchOutcome::kNoPath;
   reach(start, 0xFF, 0, 0);
   while (!open_.empty()) {
     std::pop_heap(open_.begin(), open_.end(), std::greater<>());
-    const std::uint32_t point = open_.back().point;
+    const Waiting next = open_.back();
     open_.pop_back();
-    if (points_[point].to_scan == 0) continue;
-    if (points_[point].cell == goal) return SearchOutcome::kFound;
+    if (points_[next.point].to_scan == 0) continue;
+    if (points_[next.point].cell == goal) return SearchOutcome::kFound;
     if ((++expanded_ & (kPointsBetweenInterrupts - 1)) == 0 && interrupt && interrupt())
       return SearchOutcome::kInterrupted;
-    expand(point);
+    expand(next);
+    if (found_) return SearchOutcome::kFound;
   }
   return SearchOutcome::kNoPath;
 }
 
-void JumpPointSearch::expand(std::uint32_t point) {
-  JumpPoint& p = points_[point];
-  const GridCell cell = p.cell;
-  const std::uint32_t cost = p.cost;
-  unsigned directions = p.to_scan;
+/// Towards the goal first: a way to it that costs no more than what all others must is as short as any.
+void JumpPointSearch::expand(const Waiting& next) {
+  JumpPoint& p = points_[next.point];
+  const From from{p.cell, p.cost, next.point};
+  const unsigned directions = p.to_scan;
+  least_priority_ = next.priority;
   p.scanned |= p.to_scan;
   p.to_scan = 0;
-  for (; directions != 0; directions &= directions - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(directions));
-    k % 2 == 0 ? scan_straight(cell, k, cost, point) : scan_diagonal(cell, k, cost, point);
+  const unsigned towards = directions_towards(from.cell, goal_) & directions;
+  for (unsigned first : {towards, directions & ~towards})
+    for (; first != 0 && !found_; first &= first - 1)
+      scan(from, static_cast<std::size_t>(std::countr_zero(first)));
+}
+
+void JumpPointSearch::scan(const From& from, std::size_t k) {
+  switch (k) {
+    case 0:
+      return scan_straight<0>(from);
+    case 1:
+      return scan_diagonal<1>(from);
+    case 2:
+      return scan_straight<2>(from);
+    case 3:
+      return scan_diagonal<3>(from);
+    case 4:
+      return scan_straight<4>(from);
+    case 5:
+      return scan_diagonal<5>(from);
+    case 6:
+      return scan_straight<6>(from);
+    default:
+      return scan_diagonal<7>(from);
   }
 }
 
 /// Goes on straight to the next jump point, or to the goal, if there is one before a blocked cell.
-void JumpPointSearch::scan_straight(GridCell from, std::size_t k, std::uint64_t cost, std::uint32_t parent) {
-  const bool along_rows = k == 0 || k == 4;
-  const bool forward = k < 4;
-  const BitGrid::Lines& lines = along_rows ? grid_->rows() : grid_->columns();
-  const std::int32_t index = along_rows ? from.y : from.x, at = along_rows ? from.x : from.y;
-  const std::uint64_t* const stops = lines.stops[forward ? 0 : 1].data() + lines.line(index);
-  std::int32_t to = forward ? next_stop(stops, at) : previous_stop(stops, at);
-  const std::int32_t goal =
-      (along_rows ? goal_.y : goal_.x) == index ? (along_rows ? goal_.x : goal_.y) : kNone;
-  const bool passed = goal != kNone && (forward ? goal > at && goal < to : goal < at && goal > to);
+template <std::size_t k>
+void JumpPointSearch::scan_straight(const From& from) {
+  constexpr bool kAlongRows = k == 0 || k == 4, kForward = k < 4;
+  const BitGrid::Lines& lines = kAlongRows ? grid_->rows() : grid_->columns();
+  const std::int32_t index = kAlongRows ? from.cell.y : from.cell.x;
+  const std::int32_t at = kAlongRows ? from.cell.x : from.cell.y;
+  const std::uint64_t* const stops = lines.stops[kForward ? 0 : 1].data() + lines.line(index);
+  std::int32_t to = kForward ? next_stop(stops, at) : previous_stop(stops, at);
+  const std::int32_t goal = kAlongRows ? goal_.x : goal_.y;
+  const bool passed = (kAlongRows ? goal_.y : goal_.x) == index &&
+                      (kForward ? goal > at && goal < to : goal < at && goal > to);
   if (passed)
     to = goal;
   else if (!lines.bit(index, to))
     return;
-  const GridCell cell = along_rows ? GridCell{to, from.y} : GridCell{from.x, to};
-  reach(cell, directions_after(cell, k),
-        cost + std::uint64_t{kSteps.straight} * static_cast<std::uint32_t>(std::abs(to - at)), parent);
+  const GridCell cell = kAlongRows ? GridCell{to, index} : GridCell{index, to};
+  const auto steps = static_cast<std::uint32_t>(kForward ? to - at : at - to);
+  reach(cell, directions_after(cell, k), from.cost + std::uint64_t{kSteps.straight} * steps, from.point);
 }
 
 /// Goes on diagonally as far as the corner rule allows, and from each cell straight to both sides.
-void JumpPointSearch::scan_diagonal(GridCell from, std::size_t k, std::uint64_t cost, std::uint32_t parent) {
-  const std::size_t a = k - 1, b = (k + 1) % 8;
-  const auto step = [](GridCell c, std::size_t d) { return GridCell{c.x + kStepX[d], c.y + kStepY[d]}; };
-  while (grid_->free(step(from, a)) && grid_->free(step(from, b)) && grid_->free(step(from, k))) {
-    from = step(from, k);
-    cost += kSteps.diagonal;
-    if (from == goal_) reach(from, 0xFF, cost, parent);
-    scan_straight(from, a, cost, parent);
-    scan_straight(from, b, cost, parent);
+template <std::size_t k>
+void JumpPointSearch::scan_diagonal(From from) {
+  const std::size_t words = grid_->rows().words;
+  const std::uint64_t* row = grid_->rows().bits.data() + grid_->rows().line(from.cell.y);
+  const auto free = [](const std::uint64_t* cells, std::int32_t x) {
+    const auto place = static_cast<std::size_t>(x + 1);
+    return cells[place / 64] >> (place % 64) & 1;
+  };
+  while (!found_) {
+    const std::uint64_t* const next = kStepY[k] > 0 ? row + words : row - words;
+    const std::int32_t x = from.cell.x + kStepX[k];
+    if ((free(row, x) & free(next, from.cell.x) & free(next, x)) == 0) return;
+    row = next;
+    from.cell = {x, from.cell.y + kStepY[k]};
+    from.cost += kSteps.diagonal;
+    if (from.cell == goal_) reach(from.cell, 0xFF, from.cost, from.point);
+    scan_straight<k - 1>(from);
+    scan_straight<(k + 1) % 8>(from);
   }
 }
 
 /// Where a shortest way that comes straight to a cell may go on: straight, and around a corner that it has
 /// just passed.
-std::uint8_t JumpPointSearch::directions_after(GridCell cell, std::size_t k) const {
+inline std::uint8_t JumpPointSearch::directions_after(GridCell cell, std::size_t k) const {
   unsigned directions = 1U << k;
   for (const std::size_t turn : {std::size_t{1}, std::size_t{7}}) {
     const std::size_t between = (k + turn) % 8, side = (k + 2 * turn) % 8;
@@ -120,6 +161,7 @@ std::uint8_t JumpPointSearch::directions_after(GridCell cell, std::size_t k) con
 void JumpPointSearch::reach(GridCell cell, std::uint8_t directions, std::uint64_t cost,
                             std::uint32_t parent) {
   const std::uint64_t priority = cost + octile(goal_.x - cell.x, goal_.y - cell.y, kSteps);
+  found_ = found_ || (cell == goal_ && priority <= least_priority_);
   if (priority > std::numeric_limits<std::uint32_t>::max()) return;  // as AStar, which expands no such cell
   SearchCells::Cell& known = cells_->data()[cells_->index(cell)];
   if (!cells_->current(known)) {
@@ -139,16 +181,17 @@ void JumpPointSearch::reach(GridCell cell, std::uint8_t directions, std::uint64_
 
 void JumpPointSearch::path(std::vector<GridCell>& path) const {
   path.assign(1, goal_);
-  std::uint32_t point = (*cells_)[goal_].value;
-  while (point != 0) {
+  for (std::uint32_t point = (*cells_)[goal_].value; point != 0;) {
     point = points_[point].parent;
-    const GridCell to = points_[point].cell;
+    GridCell at = path.back();
+    const std::int32_t dx = points_[point].cell.x - at.x, dy = points_[point].cell.y - at.y;
+    const std::int32_t diagonal = std::min(std::abs(dx), std::abs(dy));
+    const std::int32_t straight = std::max(std::abs(dx), std::abs(dy)) - diagonal;
+    const GridCell turn{dx > 0 ? 1 : -1, dy > 0 ? 1 : -1};
+    const GridCell ahead{std::abs(dx) > std::abs(dy) ? turn.x : 0, std::abs(dx) > std::abs(dy) ? 0 : turn.y};
     // Backwards the straight part comes first.
-    for (GridCell c = path.back(); c != to; path.push_back(c)) {
-      const std::int32_t dx = to.x - c.x, dy = to.y - c.y;
-      if (std::abs(dx) >= std::abs(dy)) c.x += dx > 0 ? 1 : -1;
-      if (std::abs(dy) >= std::abs(dx)) c.y += dy > 0 ? 1 : -1;
-    }
+    for (std::int32_t i = 0; i < straight; ++i) path.push_back(at = {at.x + ahead.x, at.y + ahead.y});
+    for (std::int32_t i = 0; i < diagonal; ++i) path.push_back(at = {at.x + turn.x, at.y + turn.y});
   }
   std::reverse(path.begin(), path.end());
 }

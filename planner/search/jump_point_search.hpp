@@ -43,9 +43,19 @@ class JumpPointSearch {
     friend auto operator<=>(const Waiting&, const Waiting&) = default;
   };
 
-  void expand(std::uint32_t point);
-  void scan_straight(GridCell from, std::size_t k, std::uint64_t cost, std::uint32_t parent);
-  void scan_diagonal(GridCell from, std::size_t k, std::uint64_t cost, std::uint32_t parent);
+  /// A place from which to scan, on the way from a jump point.
+  struct From {
+    GridCell cell;
+    std::uint64_t cost;
+    std::uint32_t point;
+  };
+
+  void expand(const Waiting& next);
+  void scan(const From& from, std::size_t k);
+  template <std::size_t k>
+  void scan_straight(const From& from);
+  template <std::size_t k>
+  void scan_diagonal(From from);
   void reach(GridCell cell, std::uint8_t directions, std::uint64_t cost, std::uint32_t parent);
   [[nodiscard]] std::uint8_t directions_after(GridCell cell, std::size_t k) const;
 
@@ -54,6 +64,8 @@ class JumpPointSearch {
   std::vector<Waiting> open_;      ///< a heap: jumps are too long for buckets
   std::vector<JumpPoint> points_;
   GridCell goal_;
+  std::uint32_t least_priority_ = 0;  ///< of the point being expanded
+  bool found_ = false;                ///< the goal, at the least priority
   std::int64_t expanded_ = 0;
 };
 
