@@ -1,24 +1,21 @@
 // virtual-kinect: runs programs with a Kinect that is none, and commands it.
-#include <array>
-#include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <functional>
 #include <map>
 #include <string>
-#include <thread>
-#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
+#include "lcmtypes/channels.hpp"
 #include "runtime/process/lcm_transport.hpp"
 #include "runtime/process/stop_signals.hpp"
-#include "tests/devices/kinect/robot.hpp"
+#include "tests/devices/kinect/log_scene.hpp"
 #include "tests/devices/kinect/room_scene.hpp"
+#include "tests/devices/kinect/virtual_kinect.hpp"
+#include "tests/devices/live/child_program.hpp"
+#include "tests/devices/live/robot.hpp"
 
 namespace floornav {
 namespace {
@@ -33,31 +30,20 @@ struct RunOptions {
   std::vector<std::string> command;
 };
 
-/// Starts a program that finds the virtual Kinect in its OpenNI2.
-pid_t start(const std::vector<std::string>& command, const std::string& control) {
-  const pid_t child = ::fork();
-  if (child != 0) return child;
-  ::setenv("LD_LIBRARY_PATH", FLOORNAV_VIRTUAL_OPENNI2, 1);
-  ::setenv(kControlVariable, control.c_str(), 1);
-  std::vector<char*> arguments;
-  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  ::execvp(arguments.front(), arguments.data());
-  std::perror(arguments.front());
-  std::_Exit(127);
-}
-
-/// Its exit code; asks it to end when `stop` is set or the time is over (0: never).
-int wait_for(pid_t child, double seconds, const std::atomic<bool>& stop) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  bool asked = false;
-  int status = 0;
-  while (::waitpid(child, &status, WNOHANG) == 0) {
-    const bool over = stop || (seconds > 0 && std::chrono::steady_clock::now() > end);
-    if (over && !std::exchange(asked, true)) ::kill(child, SIGTERM);
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+LiveCamera live_camera(VirtualKinect& kinect, const LogScene& scene) {
+  LiveCamera camera;
+  camera.source = "kinect";
+  camera.channel = channel::kKinectCloud;
+  camera.period_us = scene.period_us;
+  camera.origin_us = kinect->origin_us;
+  camera.unplug = [&kinect] { kinect.unplug(); };
+  camera.plug = [&kinect] { kinect.plug(); };
+  camera.stall = [&kinect] { kinect->stalled = 1; };
+  camera.raised_us = [&kinect](std::int64_t step) {
+    return kinect->records[static_cast<std::size_t>(step) % ControlBlock::kRecords].raised_us.load();
+  };
+  camera.body_at = [&scene](std::int64_t since_first_us) { return scene.body_at(since_first_us); };
+  return camera;
 }
 
 int run(const RunOptions& options) {
@@ -70,18 +56,20 @@ int run(const RunOptions& options) {
   VirtualKinect kinect(options.control, scene_file);
   kinect->transfer_us = options.transfer_ms * 1000;
   const std::atomic<bool>& stop = stop_on_signals();
-  const pid_t child = start(options.command, std::filesystem::absolute(options.control).string());
+  const pid_t child = start_program(
+      options.command, {{"LD_LIBRARY_PATH", FLOORNAV_VIRTUAL_OPENNI2},
+                        {kControlVariable, std::filesystem::absolute(options.control).string()}});
   int code = 0;
   if (options.drive.seconds > 0) {
     LiveTask task = options.drive;
     task.lcm_url = lcm_url(task.lcm_url);
-    const LiveReport report = drive_live(kinect, scene, task, stop);
+    const LiveReport report = drive_live(live_camera(kinect, scene), task, stop);
     fmt::print("{}{}\n", report.text,
                report.flaw.empty() ? "all frames came through" : "FLAW: " + report.flaw);
     code = report.flaw.empty() ? 0 : 1;
     ::kill(child, SIGTERM);
   }
-  const int child_code = wait_for(child, options.seconds, stop);
+  const int child_code = wait_for_program(child, options.seconds, stop);
   std::filesystem::remove(scene_file);
   std::filesystem::remove(options.control);
   return code != 0 ? code : child_code;

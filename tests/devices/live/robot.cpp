@@ -1,4 +1,4 @@
-#include "tests/devices/kinect/robot.hpp"
+#include "tests/devices/live/robot.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -10,7 +10,7 @@
 #include "runtime/process/identity.hpp"
 #include "runtime/process/lcm_transport.hpp"
 #include "runtime/process/outbox.hpp"
-#include "tests/devices/kinect/live_watch.hpp"
+#include "tests/devices/live/live_watch.hpp"
 
 namespace floornav {
 namespace {
@@ -23,10 +23,10 @@ std::int64_t now_us() {
   return std::chrono::duration_cast<std::chrono::microseconds>(AnyClock::now().time_since_epoch()).count();
 }
 
-pose_t pose_now(const LogScene& scene, std::int64_t origin_us) {
+pose_t pose_now(const LiveCamera& camera) {
   pose_t pose{};
   pose.utime = now_us<std::chrono::system_clock>();
-  pose_to_arrays(scene.body_at(std::max<std::int64_t>(0, now_us<Clock>() - origin_us)), pose.pos,
+  pose_to_arrays(camera.body_at(std::max<std::int64_t>(0, now_us<Clock>() - camera.origin_us)), pose.pos,
                  pose.orientation);
   return pose;
 }
@@ -42,15 +42,14 @@ goal_t goal_at(const std::array<double, 2>& place_m) {
   return goal;
 }
 
-/// Sends poses and goals until `ended`.
-void be_the_base(const LogScene& scene, const LiveTask& task, std::int64_t origin_us,
-                 const std::atomic<bool>& ended) {
+/// Sends poses and goals until it is asked to stop.
+void be_the_base(const LiveCamera& camera, const LiveTask& task, const std::stop_token& ended) {
   LcmTransport bus(task.lcm_url);
   Outbox out(random_identity("base"));
   std::int64_t ticks = 0;
-  for (auto wake = Clock::now(); !ended; wake += 10ms, ++ticks) {
+  for (auto wake = Clock::now(); !ended.stop_requested(); wake += 10ms, ++ticks) {
     std::this_thread::sleep_until(wake);
-    out.publish(channel::kPose, pose_now(scene, origin_us));
+    out.publish(channel::kPose, pose_now(camera));
     if (ticks % 100 == 0) out.publish(channel::kGoal, goal_at(task.goal_m));
     for (const EncodedMessage& message : out.take()) bus.publish(message);
   }
@@ -62,34 +61,37 @@ void watch_for(double seconds, LiveWatch& watch, const std::atomic<bool>& stop) 
   while (!stop && Clock::now() < end) watch.receive(20ms);
 }
 
+/// Watches until something has come about; gives up on a machine that has stopped altogether.
+template <class Condition>
+void watch_until(LiveWatch& watch, const std::atomic<bool>& stop, const Condition& condition) {
+  const auto patience = Clock::now() + 30s;
+  while (!condition() && !stop && Clock::now() < patience) watch.receive(20ms);
+}
+
 }  // namespace
 
-LiveReport drive_live(VirtualKinect& kinect, const LogScene& scene, const LiveTask& task,
-                      const std::atomic<bool>& stop) {
+LiveReport drive_live(const LiveCamera& camera, const LiveTask& task, const std::atomic<bool>& stop) {
   constexpr double kUnpluggedFor_s = 2.5;
   LcmTransport bus(task.lcm_url);
-  LiveWatch watch(bus, kinect, scene.period_us);
-  std::atomic<bool> ended = false;
-  std::thread base([&] { be_the_base(scene, task, kinect->origin_us, ended); });
-  const auto patience = Clock::now() + 20s;
-  while (watch.clouds() == 0 && !stop && Clock::now() < patience) watch.receive(20ms);
-  const std::int64_t raised_before = kinect->raised - 1;
+  LiveWatch watch(bus, camera);
+  const std::jthread base([&](const std::stop_token& ended) { be_the_base(camera, task, ended); });
+  watch_until(watch, stop, [&] { return watch.clouds() > 0; });
   if (task.unplug_at_s > 0) {
     watch_for(task.unplug_at_s, watch, stop);
-    kinect.unplug();
+    camera.unplug();
     watch.unplugged();
     watch_for(kUnpluggedFor_s, watch, stop);
-    kinect.plug();
+    camera.plug();
     watch.plugged();
     watch_for(task.seconds - task.unplug_at_s - kUnpluggedFor_s, watch, stop);
   } else {
     watch_for(task.seconds, watch, stop);
   }
-  const std::int64_t raised = kinect->raised - raised_before;
-  watch.receive(100ms);
-  ended = true;
-  base.join();
-  return {watch.table(raised), watch.flaw(raised, task.may_lose)};
+  watch_until(watch, stop, [&] { return watch.settled(); });
+  camera.stall();
+  watch_for(0.2, watch, stop);  // what is on its way
+  watch_until(watch, stop, [&] { return watch.all_told(); });
+  return {watch.table(), watch.flaw(task.may_lose)};
 }
 
 }  // namespace floornav

@@ -1,8 +1,9 @@
-#include "tests/devices/kinect/live_watch.hpp"
+#include "tests/devices/live/live_watch.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -43,10 +44,8 @@ void LiveWatch::Reaction::end() {
   if (since && !ms) ms = std::chrono::duration<double, std::milli>(Clock::now() - *since).count();
 }
 
-LiveWatch::LiveWatch(LcmTransport& bus, VirtualKinect& kinect, int period_us)
-    : bus_(bus), kinect_(kinect), period_us_(period_us) {
-  inbox_.subscribe<depth_cloud_t>(channel::kKinectCloud, Keep::kAll,
-                                  [this](const auto& m, Micros) { see(m); });
+LiveWatch::LiveWatch(LcmTransport& bus, const LiveCamera& camera) : bus_(bus), camera_(camera) {
+  inbox_.subscribe<depth_cloud_t>(camera.channel, Keep::kAll, [this](const auto& m, Micros) { see(m); });
   inbox_.subscribe<surfels_t>(channel::kSurfels, Keep::kAll, [this](const auto& m, Micros) { see(m); });
   inbox_.subscribe<grid_map_t>(channel::kGridMap, Keep::kAll, [](const auto&, Micros) {});
   inbox_.subscribe<path_t>(channel::kPath, Keep::kAll, [this](const auto& m, Micros) { see(m); });
@@ -73,18 +72,20 @@ void LiveWatch::plugged() {
 void LiveWatch::see(const depth_cloud_t& cloud) {
   const std::int64_t now = now_us<Clock>();
   frames_.end();
+  const std::int64_t step = step_at(cloud.utime - now_us<std::chrono::system_clock>() + now);
+  if (clouds_ == 0) first_step_ = step;
   if (clouds_++ > 0) frame_gaps_ += cloud.frame - last_frame_ - 1;
   last_frame_ = cloud.frame;
-  const std::int64_t exposure = cloud.utime - now_us<std::chrono::system_clock>() + now;
-  const std::int64_t step = (exposure - kinect_->origin_us + period_us_ / 2) / period_us_;
-  const RaisedFrame& raised = kinect_->records[static_cast<std::size_t>(step) % ControlBlock::kRecords];
-  const double ms = static_cast<double>(now - raised.raised_us) * 1e-3;
+  const double ms = static_cast<double>(now - camera_.raised_us(step)) * 1e-3;
   if (ms >= 0 && ms < 1000) latency_ms_.push_back(ms);
 }
 
 void LiveWatch::see(const surfels_t& surfels) {
-  if (surfels.frame != last_surfels_) ++surfel_frames_;
-  last_surfels_ = surfels.frame;
+  if (std::exchange(last_surfels_, surfels.frame) != surfels.frame) ++surfel_frames_;
+  const bool nearest = std::any_of(surfels.sections.begin(), surfels.sections.end(), [](const section_t& s) {
+    return s.ix == 0 && s.state == section_t::DONE;
+  });
+  if (nearest && std::exchange(last_nearest_, surfels.frame) != surfels.frame) ++nearest_frames_;
 }
 
 void LiveWatch::see(const path_t& path) {
@@ -96,13 +97,35 @@ void LiveWatch::see(const path_t& path) {
     stop_.end();
 }
 
-std::int64_t LiveWatch::lost_on_bus() const {
-  return inbox_.counts().at(channel::kKinectCloud).lost;
+std::int64_t LiveWatch::step_at(std::int64_t monotonic_us) const {
+  return (monotonic_us - camera_.origin_us + camera_.period_us / 2) / camera_.period_us;
 }
 
-std::string LiveWatch::table(std::int64_t raised) const {
+std::int64_t LiveWatch::raised() const {
+  std::int64_t count = 0;
+  const std::int64_t now = now_us<Clock>();
+  for (std::int64_t step = first_step_; step <= step_at(now); ++step)
+    count += camera_.raised_us(step) > 0 ? 1 : 0;
+  return count;
+}
+
+std::int64_t LiveWatch::may_be_untold() const {
+  constexpr int kAtTheEnds = 2;  // the device may be one frame ahead or behind at either end
+  constexpr int kRing = 8;       // of the driver's library, which nobody empties where the camera is gone
+  return kAtTheEnds + (stop_.since ? kRing : 0);
+}
+
+bool LiveWatch::all_told() const {
+  return std::abs(raised() - clouds_ - frame_gaps_) <= may_be_untold();
+}
+
+std::int64_t LiveWatch::lost_on_bus() const {
+  return inbox_.counts().at(camera_.channel).lost;
+}
+
+std::string LiveWatch::table() const {
   std::string text =
-      fmt::format("frames of the device {}, clouds {}, lost in the driver {}, lost on the bus {}\n", raised,
+      fmt::format("frames of the device {}, clouds {}, lost in the driver {}, lost on the bus {}\n", raised(),
                   clouds_, frame_gaps_ - lost_on_bus(), lost_on_bus());
   text +=
       fmt::format("device's frame to message received: median {:.2f} ms, p99 {:.2f} ms, max {:.2f} ms\n",
@@ -111,7 +134,8 @@ std::string LiveWatch::table(std::int64_t raised) const {
   if (frames_.since)
     text += fmt::format("plugged in again: frames after {}, the robot may drive after {}\n",
                         text_of(frames_.ms), text_of(moves_.ms));
-  text += fmt::format("frames with surfels {}\n", surfel_frames_);
+  text += fmt::format("frames with surfels {}, of them with the nearest sections {}\n", surfel_frames_,
+                      nearest_frames_);
   for (const auto& [name, counts] : inbox_.counts())
     text += fmt::format("{:14} received {:6}  lost {:4}  malformed {}\n", name, counts.received, counts.lost,
                         counts.malformed);
@@ -120,17 +144,24 @@ std::string LiveWatch::table(std::int64_t raised) const {
   return text;
 }
 
-std::string LiveWatch::flaw(std::int64_t raised, std::int64_t may_lose) const {
-  constexpr int kAtTheEnds = 2;  // the device may be one frame ahead or behind at either end
+std::string LiveWatch::silence() const {
   for (const auto& [name, counts] : inbox_.counts())
     if (counts.received == 0) return fmt::format("nothing came on {}", name);
-  for (const char* source : {"kinect", "perception", "mapper", "planner"})
+  for (const std::string& source :
+       {camera_.source, std::string("perception"), std::string("mapper"), std::string("planner")})
     if (!health_.contains(source)) return fmt::format("nothing heard of {}", source);
-  if (std::abs(raised - clouds_ - frame_gaps_) > kAtTheEnds + may_lose)
-    return fmt::format("{} frames of the device, but {} clouds and {} told as lost", raised, clouds_,
-                       frame_gaps_);
   if (stop_.since && !stop_.ms) return "the planner does not stop where the camera is gone";
   if (frames_.since && !frames_.ms) return "no frame after the camera was plugged in again";
+  return "";
+}
+
+std::string LiveWatch::flaw(std::int64_t may_lose) const {
+  if (!settled()) return silence();
+  if (!all_told())
+    return fmt::format("{} frames of the device, but {} clouds and {} told as lost", raised(), clouds_,
+                       frame_gaps_);
+  if (!stop_.since && nearest_frames_ < surfel_frames_)
+    return fmt::format("{} frames without the nearest sections", surfel_frames_ - nearest_frames_);
   return frame_gaps_ > may_lose ? fmt::format("{} frames lost", frame_gaps_) : "";
 }
 

@@ -4,8 +4,7 @@
 #include <atomic>
 #include <string>
 
-#include "tests/devices/kinect/log_scene.hpp"
-#include "tests/devices/kinect/virtual_kinect.hpp"
+#include "tests/devices/live/live_camera.hpp"
 
 namespace floornav {
 
@@ -24,9 +23,8 @@ struct LiveReport {
   std::string flaw;  ///< why the run is no good; empty: it is
 };
 
-/// The base of a robot that drives as a log's did: sends its POSE at 100 Hz, in step with what the virtual
-/// Kinect sees, and a GOAL once a second, and watches what the stack says. Begins with the first cloud.
-LiveReport drive_live(VirtualKinect& kinect, const LogScene& scene, const LiveTask& task,
-                      const std::atomic<bool>& stop);
+/// The base of a robot that drives as its camera shows: sends its POSE at 100 Hz, in step with what is seen,
+/// and a GOAL once a second, and watches what the stack says. Begins with the first cloud.
+LiveReport drive_live(const LiveCamera& camera, const LiveTask& task, const std::atomic<bool>& stop);
 
 }  // namespace floornav
