@@ -17,8 +17,9 @@ struct BumblebeeSettings {
   std::string narrow_channel = "BUMBLEBEE_NARROW_CLOUD";  ///< of the narrow pair's clouds where it is both
   bool half_size = false;          ///< clouds of half the width and height: less work, less to send
   double frames_per_second = 0.0;  ///< 0: 15 at 640x480, 7.5 above
-  bool auto_exposure = true;       ///< the camera chooses shutter and gain
+  bool auto_exposure = true;       ///< the camera chooses the shutter, if it can
   double shutter_ms = 10.0;        ///< where it does not
+  bool auto_gain = true;           ///< the camera chooses the gain, if it can
   double gain_db = 6.0;            ///< where it does not
   int iso_speed_mbps = 0;          ///< 100, 200, 400 or 800; 0: 800 where camera and bus can, else 400
   int packet_bytes = 0;     ///< larger ones bring a frame sooner, and more frames a second; 0: by the rate
@@ -47,6 +48,7 @@ void visit_settings(Visitor& visit, BumblebeeSettings& s) {
   visit("frames_per_second", s.frames_per_second, Allowed{0.0, 60.0});
   visit("auto_exposure", s.auto_exposure);
   visit("shutter_ms", s.shutter_ms, Allowed{0.01, 1000.0});
+  visit("auto_gain", s.auto_gain);
   visit("gain_db", s.gain_db, Allowed{-10.0, 40.0});
   visit("iso_speed_mbps", s.iso_speed_mbps, Allowed{0, 800});
   visit("packet_bytes", s.packet_bytes, Allowed{0, 8188});

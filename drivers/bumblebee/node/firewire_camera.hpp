@@ -8,7 +8,6 @@
 
 #include <dc1394/dc1394.h>
 
-#include "drivers/bumblebee/camera_registers.hpp"
 #include "drivers/bumblebee/frame_stamp.hpp"
 #include "drivers/bumblebee/node/stereo_frame.hpp"
 #include "drivers/bumblebee/settings.hpp"
@@ -47,17 +46,7 @@ class FirewireCamera final : public Device<StereoFrame> {
 
   [[nodiscard]] std::vector<std::uint64_t> guids();
   void open_camera();
-  [[nodiscard]] std::uint32_t read(std::uint32_t address, const char* what) const;
-  void write(std::uint32_t address, std::uint32_t value, const char* what) const;
-  [[nodiscard]] std::string read_calibration() const;
-  [[nodiscard]] FrameLayout choose_layout() const;
-  void add_pairs(StereoStream& stream) const;
-  [[nodiscard]] int choose_speed() const;
-  void choose_format(const FrameLayout& layout, int packet_bytes) const;
-  void choose_exposure() const;
-  void start_embedding();
   void start(const StereoStream& stream);
-  [[nodiscard]] std::int64_t exposure_us() const;
   bool dequeue_newest();
   void give_back(dc1394video_frame_t* frame);
   void release_ring();
@@ -75,7 +64,6 @@ class FirewireCamera final : public Device<StereoFrame> {
   dc1394video_frame_t* newest_ = nullptr;  ///< dequeued
   HostTime arrival_;
   std::int64_t passed_over_ = 0;  ///< older frames since the last that was fetched
-  bool stamped_ = false;          ///< the camera writes a FrameStamp
   CycleClock clock_;
   std::int64_t number_ = 0;  ///< of the last frame
   bool in_step_ = false;     ///< the last stamp made sense

@@ -25,6 +25,7 @@ struct StereoStream {
   FrameLayout layout;
   std::vector<EyePair> pairs;    ///< one, or the wide and the narrow one
   std::int64_t period_us = 0;    ///< between frames
+  bool stamped = false;          ///< a FrameStamp is in each
   std::int64_t shortest_way_us;  ///< from mid-exposure to the arrival of a frame that nothing held up
 };
 

@@ -25,6 +25,7 @@ struct FirewireControl {
   // What kind of camera it is.
   std::atomic<std::int32_t> without_stamps;  ///< writes no timestamp and counter into its frames
   std::atomic<std::int32_t> without_calibration;
+  std::atomic<std::int32_t> without_automatic_gain;
   std::atomic<std::int32_t> clock_ppm;  ///< the bus's clock runs so much too fast
 
   // Commands.
@@ -46,7 +47,9 @@ struct FirewireControl {
   std::atomic<std::int64_t> raised;     ///< frames delivered
   std::atomic<std::int64_t> lost;       ///< frames that `drop` took
   std::atomic<std::int64_t> no_buffer;  ///< frames for which nothing was queued
-  std::atomic<std::int32_t> shutter;    ///< the camera's register
+  std::atomic<std::int32_t> shutter;    ///< the camera's register, us
+  std::atomic<std::int32_t> gain;       ///< the same, 0.01 dB
+  std::atomic<std::int32_t> automatic;  ///< features that the camera chooses itself: bit n for number n
   std::atomic<std::int32_t> packet_bytes;
   std::array<DeliveredFrame, kRecords> records;  ///< of step n: records[n % kRecords]
 };

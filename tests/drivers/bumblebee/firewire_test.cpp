@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "drivers/bumblebee/camera_registers.hpp"
 #include "drivers/bumblebee/node/firewire_camera.hpp"
 #include "lcmtypes/depth_cloud.hpp"
 #include "tests/drivers/bumblebee/bumblebee_rig.hpp"
@@ -109,6 +110,32 @@ TEST(Bumblebee2, StampsTheExposure) {
   fmt::print("[ MEASURED ] utime off by {:.2f} ms in the median\n", off_ms[off_ms.size() / 2]);
   EXPECT_TRUE(off_ms[off_ms.size() / 2] < 3 || !long_form());
   EXPECT_NEAR(rig.camera()->shutter, 8000, 10);
+}
+
+constexpr std::int32_t kShutterBit = 1 << 7;  // numbers of IIDC's features
+constexpr std::int32_t kGainBit = 1 << 8;
+
+TEST(Bumblebee2, KeepsAFixedShutterUnderAutomaticGain) {
+  BumblebeeRig rig;
+  rig.settings.auto_exposure = false;
+  rig.settings.shutter_ms = 5;
+  rig.start();
+  ASSERT_TRUE(rig.wait_for_clouds(1));
+  EXPECT_EQ(rig.camera()->automatic, kGainBit);
+  EXPECT_NEAR(rig.camera()->shutter, 5000, 10);
+}
+
+TEST(Bumblebee2, FixesAGainThatTheCameraCannotChoose) {
+  BumblebeeRig rig;
+  rig.camera()->without_automatic_gain = 1;
+  rig.camera().unplug();
+  std::this_thread::sleep_for(20ms);
+  rig.camera().plug();
+  rig.settings.gain_db = 4;
+  rig.start();
+  ASSERT_TRUE(rig.wait_for_clouds(1));
+  EXPECT_EQ(rig.camera()->automatic, kShutterBit);
+  EXPECT_NEAR(rig.camera()->gain, 400, 1);
 }
 
 TEST(BumblebeeXb3, StreamsTheWidePair) {

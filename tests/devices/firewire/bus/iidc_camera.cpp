@@ -103,13 +103,16 @@ void IidcCamera::add_formats() {
 }
 
 void IidcCamera::add_features() {
+  constexpr std::uint32_t kAutomatic = 0x02000000;
   constexpr std::uint32_t kOffered = kPresent | 0x40000000 | 0x0F000000 | 0x3FF;
   auto& r = registers_;
   r[0x404] = 0xD1810000;  // brightness, exposure, white balance, shutter, gain, frame rate
   r[0x408] = 0x40000000;  // pan
   for (const std::uint32_t feature : {0U, 1U, 3U, kShutter, kGain, 15U}) {
-    r[0x500 + 4 * feature] = kOffered;
-    r[0x800 + 4 * feature] = kPresent | 0x03000000 | 0x100;
+    const bool fixed = feature == kGain && control_.without_automatic_gain != 0;
+    r[0x500 + 4 * feature] = fixed ? kOffered & ~kAutomatic : kOffered;
+    r[0x800 + 4 * feature] = kPresent | 0x02000000 | (fixed ? 0U : 0x01000000U) | 0x100;
+    tell_exposure(0x800 + 4 * feature, r[0x800 + 4 * feature]);
     const std::uint32_t absolute = kAbsolute + 0x10 * feature;
     r[0x700 + 4 * feature] = (kCommands + absolute) / 4;
     const std::array<float, 3> range =
@@ -212,9 +215,22 @@ bool IidcCamera::write(std::uint64_t offset, std::uint32_t value) {
     if (of_mode == kPacketBytes) value = (value & 0xFFFF0000U) | (found->second & 0xFFFFU);
   }
   found->second = value;
+  tell_exposure(at, value);
+  return true;
+}
+
+/// What a register of the exposure was set to, for whoever commands the bus.
+void IidcCamera::tell_exposure(std::uint32_t at, std::uint32_t value) {
+  constexpr std::uint32_t kAutomatic = 0x01000000;
   if (at == kAbsolute + 0x10 * kShutter + 8)
     control_.shutter = static_cast<std::int32_t>(1e6F * std::bit_cast<float>(value));
-  return true;
+  if (at == kAbsolute + 0x10 * kGain + 8)
+    control_.gain = static_cast<std::int32_t>(1e2F * std::bit_cast<float>(value));
+  for (const std::uint32_t feature : {kShutter, kGain})
+    if (at == 0x800 + 4 * feature) {
+      const auto bit = std::int32_t{1} << feature;
+      control_.automatic = (value & kAutomatic) != 0 ? control_.automatic | bit : control_.automatic & ~bit;
+    }
 }
 
 void IidcCamera::stop() {

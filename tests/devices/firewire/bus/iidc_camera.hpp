@@ -46,6 +46,7 @@ class IidcCamera {
   void add_formats();
   void add_features();
   void add_own_registers();
+  void tell_exposure(std::uint32_t at, std::uint32_t value);
   [[nodiscard]] bool is_xb3() const { return scene_.header().eyes == 3; }
   [[nodiscard]] std::uint32_t value(std::uint32_t at) const;
   [[nodiscard]] std::uint32_t mode_base() const;
