@@ -8,6 +8,7 @@
 
 #include "runtime/process/stop_signals.hpp"
 #include "tools/calibrate/calibrate.hpp"
+#include "tools/command_line/one_line_error.hpp"
 #include "tools/progress/progress.hpp"
 
 namespace {
@@ -49,9 +50,7 @@ int run_program(int argc, char** argv) {
   app.add_option("--square", square_m, "Side of a square, m")->required()->check(CLI::Range(0.001, 1.0));
   app.add_option("-o,--output", task.result, "The calibration to write, OpenCV's YAML")->required();
   app.add_option("--pictures", task.pictures, "Folder for the rectified pairs");
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return fmt::format("floornav-calibrate: {} (see --help)\n", error.what());
-  });
+  tell_errors_in_one_line(app);
   app.footer(kExample);
   try {
     app.parse(argc, argv);

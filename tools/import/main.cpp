@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "runtime/process/stop_signals.hpp"
+#include "tools/command_line/one_line_error.hpp"
 #include "tools/import/import.hpp"
 #include "tools/progress/progress.hpp"
 
@@ -224,9 +225,7 @@ int run_program(int argc, char** argv) {
   CLI::App app("Makes an LCM log of depth clouds and poses from recordings in other forms");
   app.name("floornav-import");
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return fmt::format("floornav-import: {} (see --help)\n", error.what());
-  });
+  tell_errors_in_one_line(app);
   app.footer("Sub-commands have their own --help with examples.");
   CommonOptions common;
   TumImport tum;

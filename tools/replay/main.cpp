@@ -8,6 +8,7 @@
 
 #include "runtime/process/settings_reader.hpp"
 #include "runtime/process/stop_signals.hpp"
+#include "tools/command_line/one_line_error.hpp"
 #include "tools/progress/progress.hpp"
 #include "tools/replay/replay.hpp"
 
@@ -47,9 +48,7 @@ int run_program(int argc, char** argv) {
   CLI::App app(
       "Runs perception, mapper and planner over an LCM log, in one process and in the log's own time");
   app.name("floornav-replay");
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return fmt::format("floornav-replay: {} (see --help)\n", error.what());
-  });
+  tell_errors_in_one_line(app);
   app.footer(kFooter);
   ReplayRequest request;
   std::string config;
