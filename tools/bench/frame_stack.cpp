@@ -41,18 +41,22 @@ void FrameStack::deliver(const EncodedMessage& message, std::int64_t utime_us) {
 
 void FrameStack::see(const DepthSensor& sensor, std::span<const std::uint16_t> pixels,
                      const Pose& T_world_body) {
-  const std::int64_t utime_us = kDriveStart_us + frames_ * kFrame_us;
-  const bool is_kinect = sensor.model().kind == SensorKind::kKinect;
+  see(cloud_message(sensor, pixels, 0, 0), T_world_body);
+}
+
+void FrameStack::see(depth_cloud_t cloud, const Pose& T_world_body) {
+  cloud.utime = kDriveStart_us + frames_ * kFrame_us;
+  cloud.frame = frames_;
   const auto pose = [&](std::int64_t at_us) {
     out_.publish(channel::kPose, pose_message(at_us, T_world_body, T_world_body, T_world_body, 1.0));
   };
-  pose(utime_us - kPoseMargin_us);
-  out_.publish(is_kinect ? channel::kKinectCloud : channel::kBumblebeeCloud,
-               cloud_message(sensor, pixels, utime_us, frames_));
-  pose(utime_us + kPoseMargin_us);
+  pose(cloud.utime - kPoseMargin_us);
+  out_.publish(cloud.sensor == depth_cloud_t::KINECT ? channel::kKinectCloud : channel::kBumblebeeCloud,
+               cloud);
+  pose(cloud.utime + kPoseMargin_us);
   for (const EncodedMessage& message : out_.take()) {
     if (message.channel != channel::kPose) cloud_bytes_ += message.bytes.size();
-    deliver(message, utime_us + kPoseMargin_us);
+    deliver(message, cloud.utime + kPoseMargin_us);
   }
   ++frames_;
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "floornav/depth_cloud_t.hpp"
 #include "mapping/node/grid_map_message.hpp"
 #include "mapping/node/mapper_node.hpp"
 #include "mapping/node/terrain_map_message.hpp"
@@ -21,6 +22,8 @@ class FrameStack {
 
   /// One more frame, its body pose told exactly.
   void see(const DepthSensor& sensor, std::span<const std::uint16_t> pixels, const Pose& T_world_body);
+  /// The same for a cloud, but for its time and number.
+  void see(depth_cloud_t cloud, const Pose& T_world_body);
 
   [[nodiscard]] const GridMap& published() const { return receiver_.map(); }
   [[nodiscard]] const TerrainMap& terrain() const { return terrain_.map(); }

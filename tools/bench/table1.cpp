@@ -4,11 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "tools/bench/frame_stack.hpp"
+#include "tools/bench/matched_pairs.hpp"
 #include "tools/bench/sensor_names.hpp"
+#include "tools/simulator/messages.hpp"
 #include "tools/simulator/random.hpp"
 
 namespace floornav {
@@ -52,26 +55,58 @@ void visit_vertices(const GridMap& map, const Visit& visit) {
 
 using Rows = std::array<Table1Row, kRows>;
 
-Rows measure(SensorKind kind, bool correlated, std::uint64_t key) {
-  const SensorSpec model = bench_sensor(kind, correlated);
-  const ObstacleCourse course = random_course(model, covered_area(kind), key);
-  DepthSensor sensor(model, key);
-  const auto pixels = sensor.measure(course.shapes, course.T_world_body, 0);
+/// The rows of all ways to cut sections for a cloud of a course.
+Rows measure(SensorKind kind, const ObstacleCourse& course, const depth_cloud_t& cloud) {
   const auto sections = section_rows();
   Rows rows;
   for (std::size_t i = 0; i < kRows; ++i) {
     rows[i].sensor = kind;
-    rows[i].correlated = correlated;
     rows[i].x_res = sections[i].x_res;
     rows[i].y_res = sections[i].y_res;
     rows[i].error_growth = sections[i].layout == "error_growth";
     MappingSettings mapping;
     mapping.resolution_m = kVertex_m;
     FrameStack stack(perception_for(kind, sections[i]), mapping, RobotSettings{});
-    stack.see(sensor, pixels, course.T_world_body);
+    stack.see(cloud, course.T_world_body);
     judge(course, stack.published(), rows[i]);
   }
   return rows;
+}
+
+Rows measure_simulated(SensorKind kind, bool correlated, std::uint64_t key) {
+  const SensorSpec model = bench_sensor(kind, correlated);
+  const ObstacleCourse course = random_course(model, covered_area(kind), key);
+  DepthSensor sensor(model, key);
+  const auto pixels = sensor.measure(course.shapes, course.T_world_body, 0);
+  Rows rows = measure(kind, course, cloud_message(sensor, pixels, 0, 0));
+  for (Table1Row& row : rows) row.correlated = correlated;
+  return rows;
+}
+
+/// Appends the sums of many configurations' rows.
+void append(const std::vector<Rows>& measured, std::vector<Table1Row>& rows) {
+  for (std::size_t i = 0; i < kRows; ++i) {
+    rows.push_back(measured.front()[i]);
+    for (std::size_t n = 1; n < measured.size(); ++n) rows.back().add(measured[n][i]);
+  }
+}
+
+void measure_matched(const Table1Options& options, Parallel& parallel, std::vector<Table1Row>& rows) {
+  const SensorSpec model = bench_sensor(SensorKind::kBumblebee, false);
+  const RoiSettings roi = perception_for(SensorKind::kBumblebee, {}).roi;
+  std::vector<std::optional<MatchedPairs>> eyes(static_cast<std::size_t>(parallel.workers()));
+  std::vector<Rows> measured(static_cast<std::size_t>(options.configurations));
+  parallel.run(options.configurations, [&](int number, int worker) {
+    const auto n = static_cast<std::size_t>(number);
+    auto& pairs = eyes[static_cast<std::size_t>(worker)];
+    if (!pairs) pairs.emplace(model, roi, options.seed);
+    const ObstacleCourse course =
+        random_course(model, covered_area(SensorKind::kBumblebee), random_key({options.seed, n}));
+    measured[n] =
+        measure(SensorKind::kBumblebee, course, pairs->see(course.shapes, course.T_world_body, number));
+    for (Table1Row& row : measured[n]) row.matched = true;
+  });
+  append(measured, rows);
 }
 
 }  // namespace
@@ -171,13 +206,13 @@ std::vector<Table1Row> measure_table1(const Table1Options& options, Parallel& pa
       std::vector<Rows> measured(static_cast<std::size_t>(options.configurations));
       parallel.run(options.configurations, [&](int number, int) {
         const auto n = static_cast<std::size_t>(number);
-        measured[n] = measure(sensor, correlated, random_key({options.seed, n}));
+        measured[n] = measure_simulated(sensor, correlated, random_key({options.seed, n}));
       });
-      for (std::size_t i = 0; i < kRows; ++i) {
-        rows.push_back(measured.front()[i]);
-        for (std::size_t n = 1; n < measured.size(); ++n) rows.back().add(measured[n][i]);
-      }
+      append(measured, rows);
     }
+    if (!options.matched || sensor != SensorKind::kBumblebee) continue;
+    progress(fmt::format("Table 1: matched pairs of images, {} configurations", options.configurations));
+    measure_matched(options, parallel, rows);
   }
   return rows;
 }

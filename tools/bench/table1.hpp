@@ -40,6 +40,7 @@ struct Table1Row {
   int y_res = 3;
   bool correlated = false;
   bool error_growth = false;  ///< sections after eq. (5) instead of equally long ones
+  bool matched = false;       ///< rendered pairs of images, matched; the noise is theirs
   TopErrors near;             ///< < 3 m
   TopErrors far;              ///< 3..5.5 m
   double floor_square_m2 = 0;
@@ -72,6 +73,7 @@ struct Table1Options {
   std::vector<SensorKind> sensors{SensorKind::kKinect, SensorKind::kBumblebee};
   int configurations = 20;
   std::uint64_t seed = 1;
+  bool matched = false;  ///< the Bumblebee's rows from matched pairs of images, too
 };
 
 /// Table 1 of the paper: obstacle courses for each sensor, noise and section grid, one frame each; the

@@ -25,6 +25,20 @@ double floor_rms_cm(const Table1Row& row) {
   return row.floor_vertices > 0 ? 100.0 * std::sqrt(row.floor_square_m2 / row.floor_vertices) : 0.0;
 }
 
+const char* noise_of(const Table1Row& row) {
+  return row.matched ? "matched" : noise_name(row.correlated);
+}
+
+/// What is asked of matched pairs: twice the goals of simulated disparities, in the paper's usual sections.
+void print_matched_goal(const std::vector<Table1Row>& rows) {
+  constexpr double kNearGoal_cm = 0.16;
+  constexpr double kFarGoal_cm = 0.80;
+  for (const Table1Row& row : rows)
+    if (row.matched && row.x_res == 4 && row.y_res == 3 && !row.error_growth)
+      fmt::print("matched pairs, 4 x 3: {:.2f} / {:.2f} cm, goals {:.2f} / {:.2f}\n",
+                 row.near.all().mean_cm(), row.far.all().mean_cm(), kNearGoal_cm, kFarGoal_cm);
+}
+
 /// Mean of all beside the paper's; of level and of sloped tops; the worst.
 std::string text_of(const TopErrors& errors, double paper_cm) {
   const HeightErrors all = errors.all();
@@ -40,11 +54,12 @@ void print_text(const std::vector<Table1Row>& rows) {
              "3 .. 5.5 m", "missed");
   for (const Table1Row& row : rows) {
     const PaperRow paper = paper_row(row.sensor, row.x_res, row.y_res);
-    fmt::print("{:<10}{:<13}{:2}, {:<2}| {}| {}| {:>2}/{:<5}| {:.2f}{}\n", name_of(row.sensor),
-               noise_name(row.correlated), row.x_res, row.y_res, text_of(row.near, paper.near_cm),
-               text_of(row.far, paper.far_cm), row.near.all().missed + row.far.all().missed,
-               row.near.all().count + row.far.all().count, floor_rms_cm(row), row.error_growth ? " (5)" : "");
+    fmt::print("{:<10}{:<13}{:2}, {:<2}| {}| {}| {:>2}/{:<5}| {:.2f}{}\n", name_of(row.sensor), noise_of(row),
+               row.x_res, row.y_res, text_of(row.near, paper.near_cm), text_of(row.far, paper.far_cm),
+               row.near.all().missed + row.far.all().missed, row.near.all().count + row.far.all().count,
+               floor_rms_cm(row), row.error_growth ? " (5)" : "");
   }
+  print_matched_goal(rows);
 }
 
 nlohmann::json json_of(const TopErrors& errors, double paper_cm) {
@@ -64,7 +79,7 @@ nlohmann::json json_of(const Table1Row& row) {
           {"x_res", row.x_res},
           {"y_res", row.y_res},
           {"sections", row.error_growth ? "error_growth" : "uniform"},
-          {"noise", noise_name(row.correlated)},
+          {"noise", noise_of(row)},
           {"near", json_of(row.near, paper.near_cm)},
           {"far", json_of(row.far, paper.far_cm)},
           {"floor_rms_cm", floor_rms_cm(row)}};
@@ -212,6 +227,8 @@ void add_table1_command(CLI::App& app) {
       ->add_option("--configurations", o->table.configurations, "Obstacle configurations a row; 0: no table")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
+  command->add_flag("--matched", o->table.matched,
+                    "The Bumblebee's rows from rendered pairs of images through the matcher, too");
   command
       ->add_option("--step-poses", o->steps.poses,
                    "Random poses for each height of step; 0: no steps. One drive of ten frames shows an edge "
