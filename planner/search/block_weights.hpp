@@ -13,7 +13,7 @@ namespace floornav {
 /// search may tell at once what a way costs at least (GoalBounds).
 class BlockWeights {
  public:
-  static constexpr std::int32_t kSide = 6;        ///< cells; finer bounds are closer, but take longer
+  static constexpr std::int32_t kSide = 5;        ///< cells; finer bounds are closer, but take longer
   static constexpr std::uint8_t kShut = 255;      ///< of a block without any open step
   static constexpr std::uint8_t kHeaviest = 254;  ///< stands for 255 too
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "planner/search/large_pages.hpp"
 #include "planner/search/search_grid.hpp"
 
 namespace floornav {
@@ -50,7 +51,7 @@ class SearchCells {
 
  private:
   static constexpr std::uint32_t kMaxNumber = (1U << (32 - kFreeBits)) - 1;
-  std::vector<Cell> cells_;
+  std::vector<Cell, LargePages<Cell>> cells_;
   std::uint32_t number_ = 0;
   std::int32_t width_ = 0;
 };

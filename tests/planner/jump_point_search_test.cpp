@@ -118,8 +118,12 @@ TEST(JumpPointSearch, StopsWhenInterrupted) {
   clutter.passable.front() = clutter.passable.back() = 1;
   for (const std::size_t wall : {89998U, 89699U, 89698U}) clutter.passable[wall] = 0;
   JumpPointSearch search;
-  EXPECT_EQ(search.search(bits_of(clutter), {0, 0}, {299, 299}, [] { return true; }),
+  int asked = 0;
+  EXPECT_EQ(search.search(bits_of(clutter), {0, 0}, {299, 299}, [&] { return ++asked == 3; }),
             SearchOutcome::kInterrupted);
+  EXPECT_EQ(asked, 3);
+  EXPECT_LE(search.expanded(), 1000) << "less than a millisecond's work";
+  EXPECT_EQ(search.search(bits_of(clutter), {0, 0}, {299, 299}), SearchOutcome::kNoPath);
 }
 
 TEST(BitGridProjection, KeepsOnlyCellsBetweenWhichTheCornerRuleAloneShutsSteps) {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "map_drawing.hpp"
+#include "planner/outline_search.hpp"
 #include "planner/planner.hpp"
 #include "planner/robot_outline.hpp"
 
@@ -279,6 +280,21 @@ bool reachable(const Problem& p, double larger_m) {
     }
   }
   return false;
+}
+
+TEST(OutlineSearch, StopsSoonWhenToldTo) {
+  const GridMap map = rooms_with_door(0);
+  PlanningGrid grid({}, long_robot());
+  grid.update(map, {0, 0, 200, 80}, {});
+  OutlineSearch search;
+  int asked = 0;
+  const auto third_time = [&] { return ++asked == 3; };
+  const GridCell start = grid.cell_of(2, 2), goal = grid.cell_of(8, 2);
+  EXPECT_EQ(search.search(grid, start, 0, goal, third_time), SearchOutcome::kInterrupted);
+  EXPECT_EQ(asked, 3);
+  EXPECT_LE(search.expanded(), 1000) << "less than a millisecond's work";
+  EXPECT_EQ(search.search(grid, start, 0, goal), SearchOutcome::kNoPath) << "and starts afresh";
+  EXPECT_GT(search.expanded(), 1000);
 }
 
 TEST(OutlineSearch, FindsAWayWhereSteppingAndTurningByBruteForceDoes) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "planner/gap_field.hpp"
+#include "planner/outline_search.hpp"
 #include "planner/planner.hpp"
 #include "planner/planning_grid.hpp"
 #include "planner/search/grid_search.hpp"
@@ -67,6 +68,25 @@ Times searches_on_office(std::int32_t side, const PlannerSettings& settings, int
     const GridCell start = any_place(grid, side, random), goal = any_place(grid, side, random);
     Times warm_up;
     (i < 0 ? warm_up : times).add([&] { search_way(search, grid, start, goal); });
+  }
+  return times;
+}
+
+/// Where a robot of 1.0 m x 0.5 m, which is no circle, is free to stand and to set out.
+Times outline_searches_on_office(std::int32_t side, int count) {
+  RobotSettings robot;
+  robot.radius_m = 0.62;
+  robot.footprint = {{0.5, 0.25}, {-0.5, 0.25}, {-0.5, -0.25}, {0.5, -0.25}};
+  const GridMap map = office_map(side, 1);
+  PlanningGrid grid({}, robot);
+  grid.update(map, all_of(side), {});
+  OutlineSearch search;
+  RandomStream random(2);
+  Times times;
+  while (times.us.size() < static_cast<std::size_t>(count)) {
+    const GridCell start = any_place(grid, side, random), goal = any_place(grid, side, random);
+    if (!grid.roomy(start)) continue;
+    times.add([&] { search.search(grid, start, random.uniform(0, 6), goal); });
   }
   return times;
 }
@@ -212,6 +232,8 @@ void print_planner_goals(const std::filesystem::path& movingai_folder) {
   print_changes("with costs", "p99 <= 20 ms", {});
   print("4096 x 4096 with clearance costs, office", "<= 100 ms",
         mean_and_p99(searches_on_office(4096, {}, 40)));
+  print("robot that is no circle, with costs, office of 25 m x 25 m", "",
+        mean_and_p99(outline_searches_on_office(512, 40)));
   print_gap_field();
   print("changes of side in 300 noisy maps, hysteresis / none", "few",
         fmt::format("{} / {}", changes_of_side(PlannerSettings{}.keep_path_ratio), changes_of_side(1.0)));
