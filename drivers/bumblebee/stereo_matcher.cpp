@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <opencv2/calib3d.hpp>
+
 #include "drivers/bumblebee/edge_check.hpp"
 #include "drivers/bumblebee/smoothing_kernel.hpp"
 #include "drivers/bumblebee/two_sizes.hpp"
@@ -78,6 +80,7 @@ void StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, Parallel& p
     smooth(parallel, smallest);
     refine(parallel, smallest);
   }
+  drop_speckles(parallel);
   image.width = size_.width;
   image.height = size_.height;
   image.pixels.assign(static_cast<std::size_t>(size_.area()), 0);
@@ -123,9 +126,26 @@ void StereoMatcher::refine(Parallel& parallel, Level& level) {
   });
 }
 
+void StereoMatcher::drop_speckles(Parallel& parallel) {
+  constexpr float kUnits = 16;  // of a pixel
+  const auto most_sigma = static_cast<float>(settings_.max_sigma_px);
+  const Level& whole = levels_.front();
+  patches_.create(size_);
+  in_bands(rows(), parallel, [&](cv::Range rows, std::size_t) {
+    for (int y = rows.start; y < rows.end; ++y) {
+      const float* const disparity = whole.disparity[y];
+      const float* const sigma = whole.sigma[y];
+      short* const patch = patches_[y];
+      for (int x = 0; x < size_.width; ++x)
+        patch[x] = static_cast<short>(sigma[x] <= most_sigma ? static_cast<int>(disparity[x] * kUnits) : 0);
+    }
+  });
+  cv::Mat matched = patches_.rowRange(rows());
+  cv::filterSpeckles(matched, 0, settings_.speckle_px, kUnits);
+}
+
 void StereoMatcher::write(cv::Range rows, DisparityImage& image) const {
   constexpr float kMost = 65535;
-  const auto most_sigma = static_cast<float>(settings_.max_sigma_px);
   const Level& whole = levels_.front();
   for (int y = rows.start; y < rows.end; ++y) {
     const std::ptrdiff_t at = std::ptrdiff_t{y} * size_.width;
@@ -133,10 +153,11 @@ void StereoMatcher::write(cv::Range rows, DisparityImage& image) const {
     std::uint8_t* const uncertainty = image.uncertainty.data() + at;
     const float* const disparity = whole.disparity[y];
     const float* const sigma = whole.sigma[y];
+    const short* const patch = patches_[y];
     for (int x = 0; x < size_.width; ++x) {
       const float counts = disparity[x] * (1 / DisparityImage::kUnit_px) + 0.5F;
       const float told = std::min(sigma[x] * (1 / DisparityImage::kSigmaUnit_px) + 1.0F, 255.0F);
-      const bool known = (sigma[x] <= most_sigma) & (counts >= 1) & (counts < kMost);
+      const bool known = (patch[x] != 0) & (counts < kMost);
       pixel[x] = static_cast<std::uint16_t>(known ? static_cast<int>(counts) : 0);
       uncertainty[x] = static_cast<std::uint8_t>(known ? static_cast<int>(told) : 0);
     }

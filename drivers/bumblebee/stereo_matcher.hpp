@@ -77,6 +77,8 @@ class StereoMatcher {
   void check(Parallel& parallel, Level& level);
   void smooth(Parallel& parallel, Level& level);
   void refine(Parallel& parallel, Level& level);
+  /// Leaves out patches that nothing around confirms.
+  void drop_speckles(Parallel& parallel);
   void write(cv::Range rows, DisparityImage& image) const;
 
   StereoSettings settings_;
@@ -84,6 +86,7 @@ class StereoMatcher {
   CoarseMatcher coarse_;
   std::vector<Level> levels_;                     ///< the whole images first, those of the coarse match last
   std::vector<DisparityRefinement> refinements_;  ///< of each worker
+  cv::Mat_<short> patches_;                       ///< the final disparities, 1/16 px; 0: not certain
 };
 
 }  // namespace floornav

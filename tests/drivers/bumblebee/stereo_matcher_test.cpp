@@ -187,7 +187,7 @@ TEST_P(Threads, MakeNoDifferenceToAnyByte) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Matchers, Threads, testing::Values("half", "quarter", "sgbm", "block"));
+INSTANTIATE_TEST_SUITE_P(Matchers, Threads, testing::Values("quarter", "block"));
 
 TEST(StereoMatcher, FindsNothingWhereNothingCanBeMatched) {
   StereoMatcher matcher({}, Pinhole{}, search_everywhere(Pinhole{}, 0.12, 0.6));
