@@ -50,6 +50,18 @@ float carried_on(const cv::Mat1f& disparity, cv::Point at, cv::Point step) {
   return far > 0 && std::abs(far - near) < kOneSurface_px ? 2 * near - far : near;
 }
 
+/// Whether a pixel and those around lie on one plane: no edge is near.
+bool on_one_plane(const cv::Mat1f& disparity, int x, int y) {
+  constexpr float kFlat_px = 0.75F;
+  const float* const row = disparity[y];
+  const float left = row[x - kFar_px];
+  const float right = row[x + kFar_px];
+  const float above = disparity[y - kFar_px][x];
+  const float below = disparity[y + kFar_px][x];
+  return (std::min(std::min(left, right), std::min(above, below)) > 0) &
+         (std::abs(left + right - 2 * row[x]) < kFlat_px) & (std::abs(above + below - 2 * row[x]) < kFlat_px);
+}
+
 /// Whether one of the surfaces around explains a pixel better than its own disparity.
 bool belongs_to_another(const cv::Mat1b& left, const cv::Mat1b& right, const cv::Mat1f& disparity,
                         cv::Point at) {
@@ -76,8 +88,12 @@ void check_edges(const cv::Mat1b& left, const cv::Mat1b& right, const cv::Mat1f&
     float* const to = checked[y];
     std::copy_n(from, disparity.cols, to);
     if (y < kReach_y || y + kReach_y >= disparity.rows) continue;
-    for (int x = kReach_x; x + kReach_x < disparity.cols; ++x)
-      if (from[x] > 0 && belongs_to_another(left, right, disparity, {x, y})) to[x] = 0;
+    const bool rows_around = y >= kFar_px && y + kFar_px < disparity.rows;
+    for (int x = kReach_x; x + kReach_x < disparity.cols; ++x) {
+      const bool all_around = rows_around && x >= kFar_px && x + kFar_px < disparity.cols;
+      if (!(from[x] > 0) || (all_around && on_one_plane(disparity, x, y))) continue;
+      if (belongs_to_another(left, right, disparity, {x, y})) to[x] = 0;
+    }
   }
 }
 

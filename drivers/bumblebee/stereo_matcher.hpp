@@ -17,13 +17,13 @@ namespace floornav {
 
 /// How pairs of images become disparities.
 struct StereoSettings {
-  std::string matcher = "auto";   ///< half, quarter: SGBM at that resolution, refined at full; auto: quarter
-                                  ///< of images from 1024 px on, else half; sgbm: SGBM at full, refined;
-                                  ///< block: StereoBM
-  double nearest_m = 0.6;         ///< of what is matched; nearer takes more time
-  int refinement_window_px = 11;  ///< side of the window in which disparities are refined
-  double max_sigma_px = 0.5;      ///< disparities less certain are left out
-  int speckle_px = 200;           ///< patches of disparity smaller than this are left out
+  std::string matcher = "auto";  ///< half, quarter: SGBM at that resolution, refined at full; auto: quarter
+                                 ///< of images from 1024 px on, else half; sgbm: SGBM at full, refined;
+                                 ///< block: StereoBM
+  double nearest_m = 0.6;        ///< of what is matched; nearer takes more time
+  int refinement_window_px = 9;  ///< side of the window in which disparities are refined
+  double max_sigma_px = 0.25;    ///< disparities less certain are left out
+  int speckle_px = 200;          ///< patches of disparity smaller than this are left out
 };
 
 template <class Visitor>
