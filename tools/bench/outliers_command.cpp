@@ -10,6 +10,9 @@
 #include "perception/roi_cloud.hpp"
 #include "tools/bench/bench_scene.hpp"
 #include "tools/bench/cpu_clock.hpp"
+#ifdef FLOORNAV_PCL_PEER
+#include "tools/bench/pcl_peer.hpp"
+#endif
 #include "tools/simulator/depth_sensor.hpp"
 
 namespace floornav {
@@ -73,6 +76,26 @@ class Contestant {
   std::vector<double> times_ms_;
 };
 
+/// What PCL's filter takes, and how many points it decides otherwise; -1 where it is not built in.
+struct PclResult {
+  double ms = -1;
+  std::size_t different = 0;
+};
+
+PclResult run_pcl([[maybe_unused]] const OutliersOptions& options, [[maybe_unused]] const RoiCloud& cloud,
+                  [[maybe_unused]] const std::vector<std::uint8_t>& ours) {
+  PclResult result;
+#ifdef FLOORNAV_PCL_PEER
+  const PclOutliers pcl(options.neighbors, options.epsilon);
+  std::vector<std::uint8_t> keep(cloud.size());
+  std::vector<double> times_ms;
+  for (int i = 0; i < options.repeats; ++i) times_ms.push_back(pcl.remove(cloud, keep));
+  result.ms = quantile_of(times_ms, 0.5);
+  for (std::size_t i = 0; i < cloud.size(); ++i) result.different += keep[i] != ours[i] ? 1U : 0U;
+#endif
+  return result;
+}
+
 void run(const OutliersOptions& options) {
   Pinhole camera;
   const RoiCloud cloud = bench_cloud(options, camera);
@@ -87,6 +110,7 @@ void run(const OutliersOptions& options) {
     removed += ours.keep()[i] == 0 ? 1U : 0U;
   }
   const double ratio = nanoflann.median_ms() / ours.median_ms();
+  const PclResult pcl = run_pcl(options, cloud, ours.keep());
   if (options.json) {
     const nlohmann::json result{{"sensor", options.sensor},
                                 {"points", cloud.size()},
@@ -95,6 +119,7 @@ void run(const OutliersOptions& options) {
                                 {"ours_ms", ours.median_ms()},
                                 {"nanoflann_ms", nanoflann.median_ms()},
                                 {"ratio", ratio},
+                                {"pcl_ms", pcl.ms < 0 ? nlohmann::json() : nlohmann::json(pcl.ms)},
                                 {"removed", removed},
                                 {"different", different}};
     fmt::print("{}\n", result.dump());
@@ -105,6 +130,11 @@ void run(const OutliersOptions& options) {
   fmt::print("image window {:7.1f} ms\nnanoflann    {:7.1f} ms, {:.1f} times as long\n", ours.median_ms(),
              nanoflann.median_ms(), ratio);
   fmt::print("{} points removed, {} decided differently\n", removed, different);
+  if (pcl.ms < 0)
+    fmt::print("PCL is not built in: cmake -DFLOORNAV_PCL_PEER=ON, with the package libpcl-dev\n");
+  else
+    fmt::print("PCL          {:7.1f} ms, {:.1f} times as long, {} decided otherwise\n", pcl.ms,
+               pcl.ms / ours.median_ms(), pcl.different);
 }
 
 }  // namespace

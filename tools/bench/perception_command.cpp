@@ -4,19 +4,18 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "lcmtypes/channels.hpp"
 #include "perception/node/perception_node.hpp"
 #include "perception/node/surfels_message.hpp"
-#include "runtime/geometry/pose_history.hpp"
-#include "runtime/process/log_reader.hpp"
 #include "runtime/process/settings_reader.hpp"
 #include "runtime/process/thread_pool.hpp"
 #include "tools/bench/cpu_clock.hpp"
+#include "tools/bench/perception_frames.hpp"
 
 namespace floornav {
 namespace {
@@ -25,9 +24,10 @@ using Clock = std::chrono::steady_clock;
 
 struct PerceptionOptions {
   std::filesystem::path log;
+  std::string sensor = "kinect";
   std::filesystem::path config;
-  int threads = 1;
-  int repeats = 1;
+  int threads = 2;
+  int repeats = 3;
   int level = 0;
   bool json = false;
 };
@@ -42,39 +42,6 @@ template <class Visitor>
 void visit_settings(Visitor& visit, BenchSettings& s) {
   visit("robot", s.robot);
   visit("perception", s.perception);
-}
-
-/// A frame's clouds and the body's pose at its time.
-struct TimedFrame {
-  CloudStrips strips;
-  Pose T_world_body;
-};
-
-/// The log's clouds of both cameras that have a pose.
-std::vector<TimedFrame> read_frames(const std::filesystem::path& log) {
-  LogReader reader(log);
-  constexpr std::int64_t kDay_us = 86'400'000'000;
-  PoseHistory poses(kDay_us);
-  CloudAssembly kinect, bumblebee;
-  std::vector<CloudStrips> clouds;
-  for (LogEvent event; reader.next(event);) {
-    const int size = static_cast<int>(event.bytes.size());
-    if (event.channel == channel::kPose) {
-      pose_t pose;
-      if (pose.decode(event.bytes.data(), 0, size) == size)
-        poses.insert(pose.utime, pose_from_arrays(pose.pos, pose.orientation));
-    } else if (event.channel == channel::kKinectCloud || event.channel == channel::kBumblebeeCloud) {
-      depth_cloud_t cloud;
-      if (cloud.decode(event.bytes.data(), 0, size) != size) continue;
-      CloudAssembly& assembly = event.channel == channel::kKinectCloud ? kinect : bumblebee;
-      if (auto strips = assembly.add(cloud)) clouds.push_back(std::move(*strips));
-    }
-  }
-  std::vector<TimedFrame> frames;
-  for (CloudStrips& strips : clouds)
-    if (const auto pose = poses.at(strips.front().utime)) frames.push_back({std::move(strips), *pose});
-  if (frames.empty()) throw std::runtime_error(log.string() + ": no cloud with a body pose around its time");
-  return frames;
 }
 
 /// Wall time and CPU time of all threads, ms.
@@ -130,61 +97,109 @@ void measure(FloorPerception& perception, FramePixels& memory, const TimedFrame&
   for (std::size_t s = 0; s < spent.size(); ++s) measured.stages[s].push_back(spent[s]);
 }
 
-void print(const PerceptionOptions& options, const Measured& m) {
-  const auto frames = static_cast<std::int64_t>(m.wall_ms.size());
-  if (options.json) {
+/// One way to run perception; all ways take turns frame by frame, so that the machine's other work meets all.
+class Contestant {
+ public:
+  Contestant(const BenchSettings& settings, const SectionSettings& sections, int threads, int level)
+      : sections_(sections), pool_(threads), perception_(with(settings, sections), settings.robot) {
+    perception_.set_compromise(Compromise::at(level));
+  }
+
+  void see(const TimedFrame& frame) {
+    measure(perception_, memory_, frame, pool_, seen_ < kWarmUp ? warm_up_ : measured_);
+    ++seen_;
+  }
+  [[nodiscard]] const Measured& measured() const { return measured_; }
+  [[nodiscard]] double wall_ms() const { return quantile_of(measured_.wall_ms, 0.5); }
+  [[nodiscard]] double cpu_ms() const { return quantile_of(measured_.cpu_ms, 0.5); }
+  [[nodiscard]] std::string name() const {
+    return fmt::format("{} x {} sections, {} thread{}", sections_.x_res, sections_.y_res, pool_.workers(),
+                       pool_.workers() > 1 ? "s" : "");
+  }
+  [[nodiscard]] nlohmann::json json() const {
     nlohmann::json stages;
     for (std::size_t s = 0; s < kStageNames.size(); ++s)
-      stages[kStageNames[s]] = quantile_of(m.stages[s], 0.5);
-    const nlohmann::json result{{"frames", frames},
-                                {"points", m.points / frames},
-                                {"threads", options.threads},
-                                {"level", options.level},
-                                {"median_ms", quantile_of(m.wall_ms, 0.5)},
-                                {"p99_ms", quantile_of(m.wall_ms, 0.99)},
-                                {"cpu_median_ms", quantile_of(m.cpu_ms, 0.5)},
-                                {"near_first_median_ms", quantile_of(m.near_first_ms, 0.5)},
-                                {"stages", stages}};
-    fmt::print("{}\n", result.dump());
-    return;
+      stages[kStageNames[s]] = quantile_of(measured_.stages[s], 0.5);
+    const auto frames = static_cast<std::int64_t>(measured_.wall_ms.size());
+    return {{"name", name()},
+            {"frames", frames},
+            {"points", measured_.points / frames},
+            {"median_ms", wall_ms()},
+            {"p99_ms", quantile_of(measured_.wall_ms, 0.99)},
+            {"cpu_median_ms", cpu_ms()},
+            {"near_first_median_ms", quantile_of(measured_.near_first_ms, 0.5)},
+            {"stages", stages}};
   }
-  fmt::print("{} frames, {} points a frame in the region of interest, {} thread(s)\n", frames,
-             m.points / frames, options.threads);
-  fmt::print("from cloud to messages: median {:.1f} ms, 99 % {:.1f} ms; CPU of all threads {:.1f} ms\n",
-             quantile_of(m.wall_ms, 0.5), quantile_of(m.wall_ms, 0.99), quantile_of(m.cpu_ms, 0.5));
+
+ private:
+  static constexpr int kWarmUp = 3;
+
+  static PerceptionSettings with(const BenchSettings& settings, const SectionSettings& sections) {
+    PerceptionSettings perception = settings.perception;
+    perception.sections = sections;
+    return perception;
+  }
+
+  SectionSettings sections_;
+  ThreadPool pool_;
+  FloorPerception perception_;
+  FramePixels memory_;
+  int seen_ = 0;
+  Measured warm_up_, measured_;
+};
+
+void print(const PerceptionOptions& options, const std::array<Contestant, 3>& contestants) {
+  const Measured& first = contestants[0].measured();
+  const auto frames = static_cast<std::int64_t>(first.wall_ms.size());
+  fmt::print("{} frames, {} points a frame in the region of interest, from the cloud's bytes to messages\n",
+             frames, first.points / frames);
   if (options.level > 0) fmt::print("with {}\n", Compromise::at(options.level).text());
-  fmt::print("nearest row's messages: {:.1f} ms after decoding\nCPU time of all threads:\n",
-             quantile_of(m.near_first_ms, 0.5));
+  fmt::print("{:<28}{:>10}{:>10}{:>10}{:>22}\n", "", "CPU ms", "wall ms", "99 %", "nearest row, wall ms");
+  for (const Contestant& c : contestants)
+    fmt::print("{:<28}{:>10.1f}{:>10.1f}{:>10.1f}{:>22.1f}\n", c.name(), c.cpu_ms(), c.wall_ms(),
+               quantile_of(c.measured().wall_ms, 0.99), quantile_of(c.measured().near_first_ms, 0.5));
+  fmt::print("{} threads {:.2f} times as fast as one; {} {:.2f} times the CPU time\nstages, CPU ms:",
+             options.threads, contestants[0].wall_ms() / contestants[1].wall_ms(), contestants[2].name(),
+             contestants[2].cpu_ms() / contestants[0].cpu_ms());
   for (std::size_t s = 0; s < kStageNames.size(); ++s)
-    fmt::print("  {:<9}{:6.1f} ms\n", kStageNames[s], quantile_of(m.stages[s], 0.5));
+    fmt::print(" {} {:.1f}", kStageNames[s], quantile_of(first.stages[s], 0.5));
+  fmt::print("\n");
 }
 
 void run(const PerceptionOptions& options) {
+  constexpr int kRendered = 10;
   BenchSettings settings;
   if (!options.config.empty()) read_robot_file(options.config, settings);
-  const auto frames = read_frames(options.log);
-  ThreadPool pool(options.threads);
-  FloorPerception perception(settings.perception, settings.robot);
-  perception.set_compromise(Compromise::at(options.level));
-  FramePixels memory;
-  Measured warm_up, measured;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, frames.size()); ++i)
-    measure(perception, memory, frames[i], pool, warm_up);
+  const auto sensor = options.sensor == "kinect" ? SensorKind::kKinect : SensorKind::kBumblebee;
+  const auto frames = options.log.empty() ? rendered_frames(sensor, kRendered) : frames_of_log(options.log);
+  const SectionSettings sections = settings.perception.sections;
+  const SectionSettings finest{.x_res = 12, .y_res = 9, .layout = sections.layout};
+  std::array<Contestant, 3> contestants{Contestant(settings, sections, 1, options.level),
+                                        Contestant(settings, sections, options.threads, options.level),
+                                        Contestant(settings, finest, 1, options.level)};
   for (int i = 0; i < options.repeats; ++i)
-    for (const TimedFrame& frame : frames) measure(perception, memory, frame, pool, measured);
-  print(options, measured);
+    for (const TimedFrame& frame : frames)
+      for (Contestant& contestant : contestants) contestant.see(frame);
+  if (!options.json) return print(options, contestants);
+  nlohmann::json result = nlohmann::json::array();
+  for (const Contestant& contestant : contestants) result.push_back(contestant.json());
+  fmt::print("{}\n", result.dump());
 }
 
 }  // namespace
 
 void add_perception_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("perception", "Time of perception and its stages over a log's clouds");
+  CLI::App* command = app.add_subcommand(
+      "perception", "Time of perception and its stages: on one thread, on several, with 12 x 9 sections");
   const auto options = std::make_shared<PerceptionOptions>();
-  command->add_option("--log", options->log, "With clouds and poses")->required()->check(CLI::ExistingFile);
+  command->add_option("--log", options->log, "With clouds and poses, instead of rendered frames")
+      ->check(CLI::ExistingFile);
+  command->add_option("--sensor", options->sensor, "Whose frames are rendered")
+      ->check(CLI::IsMember({"kinect", "bumblebee"}))
+      ->capture_default_str();
   command->add_option("--config", options->config, "The robot's file")->check(CLI::ExistingFile);
-  command->add_option("--threads", options->threads)->check(CLI::Range(1, 64))->capture_default_str();
-  command->add_option("--repeats", options->repeats, "Rounds through the log")
+  command->add_option("--threads", options->threads)->check(CLI::Range(2, 64))->capture_default_str();
+  command->add_option("--repeats", options->repeats, "Rounds through the frames")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--level", options->level, "What is given up: 0 nothing, each level one thing more")
