@@ -103,22 +103,40 @@ void RoiClipper::fill_band(int first_row, int end_row, Band& band, RoiCloud& clo
     const float ray_y = ray_y_[static_cast<std::size_t>(row)];
     const std::int32_t first_block = row / PixelBlocks::kSide_px * blocks_per_row;
     const std::int32_t first_pixel = row * image_.width;
-    for (std::size_t column = 0; column < width; ++column) {
+    for (std::size_t column = 0; column < width;) {
       const int section = section_of_pixel_[first + column];
-      if (section < 0) continue;
-      const auto i = static_cast<std::size_t>(band.next[static_cast<std::size_t>(section)]++);
-      const float inverse_depth = image_.inverse_depth[first + column];
-      const float depth = 1.0F / inverse_depth;
-      cloud.x[i] = ray_x_[column] * depth;
-      cloud.y[i] = ray_y * depth;
-      cloud.z[i] = depth;
-      cloud.ray_x[i] = ray_x_[column];
-      cloud.ray_y[i] = ray_y;
-      cloud.inverse_depth[i] = inverse_depth;
-      cloud.certainty[i] = image_.certainty[first + column];
-      cloud.pixel[i] = first_pixel + static_cast<std::int32_t>(column);
-      cloud.block[i] = first_block + static_cast<std::int32_t>(column) / PixelBlocks::kSide_px;
+      std::size_t end = column + 1;
+      while (end < width && section_of_pixel_[first + end] == section) ++end;
+      if (section >= 0) {
+        std::int32_t& next = band.next[static_cast<std::size_t>(section)];
+        fill_run({first, column, end, ray_y, first_pixel, first_block}, static_cast<std::size_t>(next),
+                 cloud);
+        next += static_cast<std::int32_t>(end - column);
+      }
+      column = end;
     }
+  }
+}
+
+/// Neighbouring pixels of one section: plain loops over arrays, which the compiler turns into vectors.
+void RoiClipper::fill_run(const Run& run, std::size_t place, RoiCloud& cloud) const {
+  const std::size_t size = run.end - run.column;
+  const float* const inverse_depth = image_.inverse_depth.data() + run.row_begin + run.column;
+  const float* const certainty = image_.certainty.data() + run.row_begin + run.column;
+  const float* const ray_x = ray_x_.data() + run.column;
+  for (std::size_t i = 0; i < size; ++i) cloud.z[place + i] = 1.0F / inverse_depth[i];
+  for (std::size_t i = 0; i < size; ++i) cloud.x[place + i] = ray_x[i] * cloud.z[place + i];
+  for (std::size_t i = 0; i < size; ++i) cloud.y[place + i] = run.ray_y * cloud.z[place + i];
+  const auto at = static_cast<std::ptrdiff_t>(place);
+  std::copy_n(ray_x, size, cloud.ray_x.begin() + at);
+  std::fill_n(cloud.ray_y.begin() + at, size, run.ray_y);
+  std::copy_n(inverse_depth, size, cloud.inverse_depth.begin() + at);
+  std::copy_n(certainty, size, cloud.certainty.begin() + at);
+  const auto column = static_cast<std::int32_t>(run.column);
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::int32_t u = column + static_cast<std::int32_t>(i);
+    cloud.pixel[place + i] = run.first_pixel + u;
+    cloud.block[place + i] = run.first_block + u / PixelBlocks::kSide_px;
   }
 }
 

@@ -51,10 +51,17 @@ class RoiClipper {
     PixelCounts counts;
     std::vector<std::int32_t> next;  ///< a section: number of points, then the place of the next one
   };
+  /// Neighbouring pixels [column, end) of one section in a row.
+  struct Run {
+    std::size_t row_begin, column, end;  ///< place of the row in the image
+    float ray_y;
+    std::int32_t first_pixel, first_block;  ///< of the row
+  };
   void find_rays(const Pinhole& camera);
   void sort_band(const DepthFrame& frame, const SensorView& view, int first_row, int end_row, Band& band);
   void lay_out(RoiCloud& cloud);
   void fill_band(int first_row, int end_row, Band& band, RoiCloud& cloud) const;
+  void fill_run(const Run& run, std::size_t place, RoiCloud& cloud) const;
 
   RoiSettings settings_;
   SectionGrid grid_;

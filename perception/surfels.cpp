@@ -32,6 +32,29 @@ Surfel surfel_of(const SectionPlane& found, const PlaneSums& sums, int section, 
   return surfel;
 }
 
+/// Adds neighbouring points of one plane.
+void add_run(const RoiCloud& cloud, std::int32_t begin, std::int32_t end, const InverseDepthPlane& plane,
+             float pixel_area, PlaneSums& total) {
+  double x = 0.0, y = 0.0, z = 0.0, squared_distance = 0.0, cubed_depth = 0.0;
+  for (std::int32_t p = begin; p < end; ++p) {
+    const auto i = static_cast<std::size_t>(p);
+    const float inverse_depth = plane.inverse_depth(cloud.ray_x[i], cloud.ray_y[i]);
+    const float depth = 1.0F / inverse_depth;
+    // The plane's distance times its inverse depth along a ray is the cosine that the ray has with it.
+    const float distance = (cloud.z[i] - depth) * inverse_depth * total.plane_distance_m;
+    x += static_cast<double>(depth * cloud.ray_x[i]);
+    y += static_cast<double>(depth * cloud.ray_y[i]);
+    z += static_cast<double>(depth);
+    squared_distance += static_cast<double>(distance * distance);
+    cubed_depth += static_cast<double>(depth * depth * depth);
+  }
+  total.position += Eigen::Vector3d(x, y, z);
+  total.squared_distance += squared_distance;
+  // A pixel covers depth squared over the cosine.
+  total.area_m2 += cubed_depth * static_cast<double>(pixel_area / total.plane_distance_m);
+  total.points += end - begin;
+}
+
 }  // namespace
 
 void make_surfels(const RoiCloud& cloud, int section, std::span<const SectionPlane> planes,
@@ -40,22 +63,16 @@ void make_surfels(const RoiCloud& cloud, int section, std::span<const SectionPla
   sums.assign(planes.size(), {});
   for (std::size_t k = 0; k < planes.size(); ++k) sums[k].plane_distance_m = planes[k].plane.distance_m();
   const float pixel_area = 1.0F / (view.camera.fx * view.camera.fy);
-  for (std::int32_t p = cloud.section_begin(section);
-       p < cloud.section_end[static_cast<std::size_t>(section)]; ++p) {
-    const auto i = static_cast<std::size_t>(p);
-    if (label[i] < 0) continue;
-    const auto index = static_cast<std::size_t>(label[i]);
-    const InverseDepthPlane& plane = planes[index].plane;
-    const float inverse_depth = plane.inverse_depth(cloud.ray_x[i], cloud.ray_y[i]);
-    const float depth = 1.0F / inverse_depth;
-    // The plane's distance times its inverse depth along a ray is the cosine that the ray has with it.
-    const float facing = inverse_depth * sums[index].plane_distance_m;
-    const float distance = (cloud.z[i] - depth) * facing;
-    PlaneSums& sum = sums[index];
-    sum.position += (depth * Eigen::Vector3f(cloud.ray_x[i], cloud.ray_y[i], 1.0F)).cast<double>();
-    sum.squared_distance += static_cast<double>(distance * distance);
-    sum.area_m2 += static_cast<double>(depth * depth * pixel_area / facing);
-    ++sum.points;
+  const std::int32_t end = cloud.section_end[static_cast<std::size_t>(section)];
+  for (std::int32_t p = cloud.section_begin(section); p < end;) {
+    const std::int16_t plane = label[static_cast<std::size_t>(p)];
+    std::int32_t run_end = p + 1;
+    while (run_end < end && label[static_cast<std::size_t>(run_end)] == plane) ++run_end;
+    if (plane >= 0) {
+      const auto k = static_cast<std::size_t>(plane);
+      add_run(cloud, p, run_end, planes[k].plane, pixel_area, sums[k]);
+    }
+    p = run_end;
   }
   surfels.clear();
   for (std::size_t k = 0; k < planes.size(); ++k)
