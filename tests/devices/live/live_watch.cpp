@@ -76,6 +76,7 @@ void LiveWatch::see(const depth_cloud_t& cloud) {
   if (clouds_ == 0) first_step_ = step;
   if (clouds_++ > 0) frame_gaps_ += cloud.frame - last_frame_ - 1;
   last_frame_ = cloud.frame;
+  arrived_us_.emplace(cloud.frame, now);
   const double ms = static_cast<double>(now - camera_.raised_us(step)) * 1e-3;
   if (ms >= 0 && ms < 1000) latency_ms_.push_back(ms);
 }
@@ -85,7 +86,12 @@ void LiveWatch::see(const surfels_t& surfels) {
   const bool nearest = std::any_of(surfels.sections.begin(), surfels.sections.end(), [](const section_t& s) {
     return s.ix == 0 && s.state == section_t::DONE;
   });
-  if (nearest && std::exchange(last_nearest_, surfels.frame) != surfels.frame) ++nearest_frames_;
+  if (!nearest || std::exchange(last_nearest_, surfels.frame) == surfels.frame) return;
+  ++nearest_frames_;
+  const auto cloud = arrived_us_.find(surfels.frame);
+  if (cloud == arrived_us_.end()) return;
+  near_ms_.push_back(static_cast<double>(now_us<Clock>() - cloud->second) * 1e-3);
+  arrived_us_.erase(arrived_us_.begin(), std::next(cloud));
 }
 
 void LiveWatch::see(const path_t& path) {
@@ -123,6 +129,17 @@ std::int64_t LiveWatch::lost_on_bus() const {
   return inbox_.counts().at(camera_.channel).lost;
 }
 
+std::string LiveWatch::nearest_text() const {
+  const double period_ms = static_cast<double>(camera_.period_us) * 1e-3;
+  const auto late =
+      std::count_if(near_ms_.begin(), near_ms_.end(), [&](double ms) { return ms > period_ms; });
+  return fmt::format(
+      "nearest sections after the cloud: median {:.1f} ms, p99 {:.1f} ms, max {:.1f} ms; {} later than "
+      "{:.0f} "
+      "ms\n",
+      percentile(near_ms_, 0.5), percentile(near_ms_, 0.99), percentile(near_ms_, 1), late, period_ms);
+}
+
 std::string LiveWatch::table() const {
   std::string text =
       fmt::format("frames of the device {}, clouds {}, lost in the driver {}, lost on the bus {}\n", raised(),
@@ -136,6 +153,7 @@ std::string LiveWatch::table() const {
                         text_of(frames_.ms), text_of(moves_.ms));
   text += fmt::format("frames with surfels {}, of them with the nearest sections {}\n", surfel_frames_,
                       nearest_frames_);
+  text += nearest_text();
   for (const auto& [name, counts] : inbox_.counts())
     text += fmt::format("{:14} received {:6}  lost {:4}  malformed {}\n", name, counts.received, counts.lost,
                         counts.malformed);

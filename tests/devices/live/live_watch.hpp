@@ -54,6 +54,7 @@ class LiveWatch {
   void see(const surfels_t& surfels);
   void see(const path_t& path);
   [[nodiscard]] std::int64_t lost_on_bus() const;
+  [[nodiscard]] std::string nearest_text() const;
   /// What was not heard or seen yet; empty: nothing.
   [[nodiscard]] std::string silence() const;
   [[nodiscard]] std::int64_t may_be_untold() const;
@@ -73,6 +74,8 @@ class LiveWatch {
   std::int64_t nearest_frames_ = 0;  ///< of those, with the nearest row of sections
   std::int64_t last_surfels_ = -1;
   std::int64_t last_nearest_ = -1;
+  std::map<std::int64_t, std::int64_t> arrived_us_;  ///< a frame: when its cloud came
+  std::vector<double> near_ms_;                      ///< from a cloud to its nearest sections
   std::vector<double> latency_ms_;
   std::map<int, std::int64_t> path_status_;
   std::map<std::string, health_t> health_;
