@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 #include <nanoflann.hpp>
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::size_t kLeafSize = 16;
 constexpr int kPointsPerPiece = 2048;
+constexpr std::size_t kFew = 64;  ///< points for which no tree is built
 
 /// nanoflann's access to the points.
 struct TreePoints {
@@ -63,12 +65,32 @@ class NearestDistances {
   std::size_t count_ = 0;
 };
 
+std::size_t others_of(const PointsView& points, int neighbors) {
+  return std::min(static_cast<std::size_t>(std::min(neighbors, kMaxNeighbors)), points.size() - 1);
+}
+
+/// Looks at every point: for a few of them quicker than to build a tree of all.
+float mean_distance_among_all(const PointsView& points, std::size_t others, std::size_t index) {
+  constexpr std::size_t kBlock = 256;
+  std::array<float, kBlock> squared;
+  NearestDistances nearest(others + 1);
+  const float x = points.x[index], y = points.y[index], z = points.z[index];
+  for (std::size_t begin = 0; begin < points.size() && nearest.worstDist() > 0.0F; begin += kBlock) {
+    const std::size_t size = std::min(kBlock, points.size() - begin);
+    for (std::size_t i = 0; i < size; ++i) {
+      const float dx = x - points.x[begin + i], dy = y - points.y[begin + i], dz = z - points.z[begin + i];
+      squared[i] = (dx * dx + dy * dy) + dz * dz;
+    }
+    for (std::size_t i = 0; i < size; ++i) nearest.addPoint(squared[i], static_cast<std::uint32_t>(i));
+  }
+  return nearest.mean_of_others();
+}
+
 /// Searches for `count` points; the number of the i-th is point(i).
 template <class Point>
 void search_tree(const PointsView& points, int neighbors, int count, Point point, Parallel& parallel,
                  std::span<float> mean_m) {
-  const std::size_t others =
-      std::min(static_cast<std::size_t>(std::min(neighbors, kMaxNeighbors)), points.size() - 1);
+  const std::size_t others = others_of(points, neighbors);
   const TreePoints tree_points{points};
   const Tree tree(3, tree_points, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
   parallel.run((count + kPointsPerPiece - 1) / kPointsPerPiece, [&](int piece, int) {
@@ -98,6 +120,15 @@ void mean_neighbor_distances(const PointsView& points, int neighbors, Parallel& 
 void mean_neighbor_distances(const PointsView& points, int neighbors, std::span<const std::int32_t> wanted,
                              Parallel& parallel, std::span<float> mean_m) {
   if (wanted.empty()) return;
+  if (wanted.size() <= kFew) {
+    const std::size_t others = others_of(points, neighbors);
+    const auto search = [&](int number, int) {
+      const auto index = static_cast<std::size_t>(wanted[static_cast<std::size_t>(number)]);
+      mean_m[index] = mean_distance_among_all(points, others, index);
+    };
+    parallel.run(static_cast<int>(wanted.size()), std::ref(search));
+    return;
+  }
   search_tree(
       points, neighbors, static_cast<int>(wanted.size()),
       [&](std::size_t i) { return static_cast<std::size_t>(wanted[i]); }, parallel, mean_m);
@@ -108,17 +139,8 @@ void mean_distances_of_few(const PointsView& points, int neighbors, std::span<fl
     std::fill(mean_m.begin(), mean_m.end(), 0.0F);
     return;
   }
-  const std::size_t others =
-      std::min(static_cast<std::size_t>(std::min(neighbors, kMaxNeighbors)), points.size() - 1);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    NearestDistances nearest(others + 1);
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      const float dx = points.x[i] - points.x[j], dy = points.y[i] - points.y[j],
-                  dz = points.z[i] - points.z[j];
-      if (!nearest.addPoint((dx * dx + dy * dy) + dz * dz, static_cast<std::uint32_t>(j))) break;
-    }
-    mean_m[i] = nearest.mean_of_others();
-  }
+  const std::size_t others = others_of(points, neighbors);
+  for (std::size_t i = 0; i < points.size(); ++i) mean_m[i] = mean_distance_among_all(points, others, i);
 }
 
 }  // namespace floornav
