@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +16,7 @@ namespace floornav {
 pid_t start_program(const std::vector<std::string>& command, const std::vector<EnvironmentVariable>& more) {
   const pid_t child = ::fork();
   if (child != 0) return child;
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // no daemon is left behind by a watch that has crashed
   for (const EnvironmentVariable& variable : more) ::setenv(variable.name.c_str(), variable.value.c_str(), 1);
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
