@@ -35,12 +35,16 @@ struct Height {
   }
 };
 
-/// The part of a line in a square around the origin: `begin` and `end` times `direction` from `point`.
+/// The part of a line in a square around the origin: `begin` to `end` times its direction from its point;
+/// empty where `begin` is the larger one.
 struct Part {
   double begin = -1e9, end = 1e9;
 
   void keep_within(double half, double point, double direction) {
-    if (std::abs(direction) < kParallel) return;
+    if (std::abs(direction) < kParallel) {
+      if (std::abs(point) > half) begin = end + 1.0;
+      return;
+    }
     const double a = (-half - point) / direction, b = (half - point) / direction;
     begin = std::max(begin, std::min(a, b));
     end = std::min(end, std::max(a, b));
@@ -74,8 +78,7 @@ std::optional<float> edge_z_m(const Surfel& side, const Surfel& top, const Eigen
   Part part;
   part.keep_within(half, nearest.x(), along.x());
   part.keep_within(half, nearest.y(), along.y());
-  const bool passes = part.begin <= part.end && nearest.cwiseAbs().minCoeff() <= half;
-  if (!passes) return static_cast<float>(height.at(nearest.cwiseMax(-half).cwiseMin(half)));
+  if (part.begin > part.end) return static_cast<float>(height.at(nearest.cwiseMax(-half).cwiseMin(half)));
   return static_cast<float>(
       std::max(height.at(nearest + part.begin * along), height.at(nearest + part.end * along)));
 }

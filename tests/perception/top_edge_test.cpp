@@ -58,6 +58,14 @@ TEST(TopEdge, IsNothingFarFromTheCellOrBetweenParallelPlanes) {
   EXPECT_FALSE(edge_z_m(top, surfel({1.1, 0, 0.4}, {0, 0, 1}), {1.1, 0.0}, kPitch_m));
 }
 
+/// Its side is x = 1, its top rises with x: 0.2 m there, 0.25 m at 1.1 m.
+TEST(TopEdge, BesideACellCountsWhereTheCellIsNextToIt) {
+  const Surfel side = surfel({1, 0, 0.1}, {-1, 0, 0});
+  const Surfel top = surfel({1, 0, 0.2}, {-0.5, 0, 1});
+  EXPECT_NEAR(*edge_z_m(side, top, {1.0, 0.0}, kPitch_m), 0.2, 1e-5);
+  EXPECT_NEAR(*edge_z_m(side, top, {1.04, 0.0}, kPitch_m), 0.2075, 1e-5);
+}
+
 /// A box of 0.2 m: its side x = 1, its top behind.
 class BoxEdge : public testing::Test {
  protected:

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/planner/random_grid.hpp"
+
 namespace floornav {
 namespace {
 
@@ -54,21 +56,6 @@ SearchGrid grid_of(const RandomCells& r) {
   grid.edges = edges_of_passable(r.passable, r.width, r.height);
   grid.whole_squares = true;
   return grid;
-}
-
-/// Cost of a path; fails the test where a step is none that the grid has.
-std::uint32_t cost_along(const SearchGrid& grid, const std::vector<GridCell>& path) {
-  std::uint32_t cost = 0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    std::size_t k = 0;
-    while (k < 8 && (path[i - 1].x + kStepX[k] != path[i].x || path[i - 1].y + kStepY[k] != path[i].y)) ++k;
-    if (k == 8 || (grid.edges[grid.index(path[i - 1])] >> k & 1) == 0) {
-      ADD_FAILURE() << "step " << i << " is no open edge";
-      return 0;
-    }
-    cost += k % 2 == 1 ? kExactSteps.diagonal : kExactSteps.straight;
-  }
-  return cost;
 }
 
 TEST(JumpPointSearch, FindsPathsAsShortAsAStarDoes) {

@@ -1,0 +1,48 @@
+#include "mapping/vertex.hpp"
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+namespace floornav {
+namespace {
+
+constexpr float kPitch_m = 0.05F;
+constexpr float kStep_m = 0.02F;
+
+/// A cell that remembers one plane that rises along x.
+CellMemory cell(float z_m, float rise_per_m) {
+  Level level;
+  level.z_m = z_m;
+  level.var_m2 = 1e-6F;
+  level.gradient_x = rise_per_m;
+  level.support = Level::kTrusted;
+  return {level, Level{}, std::numeric_limits<float>::quiet_NaN(), 0};
+}
+
+/// Of 2 x 2 cells: two at the left, two at the right.
+SquareSummary square(const CellMemory& left, const CellMemory& right) {
+  const std::array<const CellMemory*, 4> cells{&left, &right, &left, &right};
+  return summarise(cells, 2, kPitch_m, kStep_m);
+}
+
+TEST(SquareOfCells, OnOnePlaneHasItsHeightInTheMiddle) {
+  const SquareSummary summary = square(cell(0.0F, 0.2F), cell(0.01F, 0.2F));
+  EXPECT_FALSE(summary.stepped);
+  EXPECT_NEAR(summary.surface.z_m, 0.005F, 1e-6F);
+}
+
+/// A slope says nothing beyond the edge where it ends, so its height is not carried on to the middle.
+TEST(SquareOfCells, AcrossAnEdgeIsAsHighAsTheHighestCellInItsPlace) {
+  const SquareSummary summary = square(cell(0.0F, 0.0F), cell(0.3F, -0.8F));
+  EXPECT_TRUE(summary.stepped);
+  EXPECT_FLOAT_EQ(summary.surface.z_m, 0.3F);
+}
+
+TEST(SquareOfCells, NeverSeenHasNoSurface) {
+  const std::array<const CellMemory*, 4> cells{};
+  EXPECT_FALSE(summarise(cells, 2, kPitch_m, kStep_m).seen);
+}
+
+}  // namespace
+}  // namespace floornav
