@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "planner/clear_way.hpp"
+#include "planner/nearest_cell.hpp"
 #include "planner/path_shape.hpp"
 #include "planner/speed_profile.hpp"
-#include "planner/way_out.hpp"
 
 namespace floornav {
 namespace {
@@ -18,6 +18,8 @@ namespace {
 constexpr double kEndCells = 0.75;
 /// The goal counts as reached from here on: it covers the cell in which a way may end.
 constexpr double kReachedCells = 1.5;
+/// What passes between a pose and the wheels' answer to the path that begins there.
+constexpr double kReaction_s = 0.2;
 /// Beyond its own radius a robot that does not fit where it stands looks this far for a place where it does.
 constexpr double kWayOut_m = 0.3;
 
@@ -38,30 +40,6 @@ double distance(GridPoint a, GridPoint b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-/// The cell nearest to a point that suits, no further than `reach` from it; of equally near ones the first by
-/// row.
-template <class Suits>
-std::optional<GridCell> nearest_cell(const SearchGrid& grid, GridPoint point, double reach,
-                                     const Suits& suits) {
-  const CellRect all{0, 0, grid.width, grid.height};
-  const auto low = [&](double v) { return static_cast<std::int32_t>(std::max(std::floor(v - reach), -1.0)); };
-  const auto high = [&](double v) {
-    return static_cast<std::int32_t>(std::min(std::ceil(v + reach) + 1, 65536.0));
-  };
-  const CellRect rect = CellRect{low(point.x), low(point.y), high(point.x), high(point.y)}.clipped(all);
-  std::optional<GridCell> best;
-  double nearest = reach;
-  for (std::int32_t y = rect.y0; y < rect.y1; ++y) {
-    for (std::int32_t x = rect.x0; x < rect.x1; ++x) {
-      const double d = distance(centre({x, y}), point);
-      if (d > nearest || (best && d == nearest) || !suits(GridCell{x, y})) continue;
-      nearest = d;
-      best = GridCell{x, y};
-    }
-  }
-  return best;
-}
-
 }  // namespace
 
 void Planner::forget() {
@@ -70,8 +48,8 @@ void Planner::forget() {
 }
 
 Plan Planner::plan(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Plan* previous,
-                   const Interrupt& interrupt) {
-  Plan plan = find_route(map, T_world_body, goal, previous, interrupt);
+                   const Interrupt& interrupt, double speed_mps) {
+  Plan plan = find_route(map, T_world_body, goal, {previous, speed_mps}, interrupt);
   plan.map_epoch = map.epoch;
   plan.map_version = map.version;
   if (plan.route.corners.empty()) return plan;
@@ -86,7 +64,7 @@ Plan Planner::plan(const GridMap& map, const Pose& T_world_body, const Goal& goa
 }
 
 /// A plan with a route, or with a status that says why there is none.
-Plan Planner::find_route(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Plan* previous,
+Plan Planner::find_route(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Motion& motion,
                          const Interrupt& interrupt) {
   const auto here = T_world_body.translation();
   const double to_goal_m = std::hypot(goal.x_m - here.x(), goal.y_m - here.y());
@@ -100,7 +78,7 @@ Plan Planner::find_route(const GridMap& map, const Pose& T_world_body, const Goa
   } catch (const std::invalid_argument& error) {
     return refusal(PlanStatus::kNoPath, error.what());
   }
-  return search(T_world_body, goal, previous, interrupt);
+  return search(T_world_body, goal, motion, interrupt);
 }
 
 void Planner::bring_up_to_date(const GridMap& map, const Pose& T_world_body, const Goal& goal) {
@@ -129,47 +107,52 @@ void Planner::bring_up_to_date(const GridMap& map, const Pose& T_world_body, con
                {here.x(), here.y(), robot_.radius_m + lattice.pitch_m});
 }
 
-Plan Planner::search(const Pose& T_world_body, const Goal& goal, const Plan* previous,
+Plan Planner::search(const Pose& T_world_body, const Goal& goal, const Motion& motion,
                      const Interrupt& interrupt) {
-  const std::optional<Start> start = start_at(T_world_body);
-  if (!start) return refusal(PlanStatus::kStartBlocked, why_start_is_blocked(T_world_body));
+  const std::optional<Departure> at_rest = departure_at(T_world_body);
+  if (!at_rest) return refusal(PlanStatus::kStartBlocked, why_start_is_blocked(T_world_body));
   const std::optional<GridCell> target = nearest_to_goal(goal, [&](GridCell c) { return grid_.passable(c); });
   if (!target) {
     return refusal(PlanStatus::kGoalBlocked,
                    "no room for the robot within " + in_metres(goal.tolerance_m) + " of the goal");
   }
-  const GridCell from = start->way.back();
-  const SearchOutcome outcome = search_nearest(*start, goal, *target, interrupt);
-  auto kept = previous != nullptr ? route_ahead(*previous, *start) : std::nullopt;
-  Plan plan;
-  if (outcome == SearchOutcome::kInterrupted) {
-    if (kept) {
-      plan.route = *std::move(kept);
-    } else if (search_.shortest(grid_, from, *target)) {
-      search_.path(cells_);
-      plan.route = route_of_cells(*start, goal);
-      plan.reason = "out of time: the shortest way, not the cheapest";
-    } else {
-      return refusal(PlanStatus::kInterrupted, "the search took too long");
-    }
-    return plan;
-  }
+  const Departure start = departure_in(motion, *at_rest);
+  const SearchOutcome outcome = search_nearest(start, goal, *target, interrupt);
+  auto kept = motion.previous != nullptr ? route_ahead(*motion.previous, *at_rest, goal) : std::nullopt;
+  if (outcome == SearchOutcome::kInterrupted) return out_of_time(start, goal, *target, std::move(kept));
   if (outcome == SearchOutcome::kNoPath) {
     if (search_.stuck_at_start()) return refusal(PlanStatus::kStartBlocked, "no room to turn");
     return refusal(PlanStatus::kNoPath,
                    "obstacles shut off all within " + in_metres(goal.tolerance_m) + " of the goal");
   }
-  plan.route = route_of_cells(*start, goal);
-  if (kept && !clearly_better(plan.route, *kept, heading_of(T_world_body))) plan.route = *std::move(kept);
+  Plan plan;
+  plan.route = route_of_cells(start, goal);
+  if (kept && !clearly_better(plan.route, *kept, at_rest->heading_rad)) plan.route = *std::move(kept);
+  return plan;
+}
+
+/// What is left to do once a search was interrupted.
+Plan Planner::out_of_time(const Departure& start, const Goal& goal, GridCell target,
+                          std::optional<Route> kept) {
+  Plan plan;
+  if (kept) {
+    plan.route = *std::move(kept);
+  } else if (search_.shortest(grid_, start.from, target)) {
+    search_.path(cells_);
+    plan.route = route_of_cells(start, goal);
+    plan.reason = "out of time: the shortest way, not the cheapest";
+  } else {
+    return refusal(PlanStatus::kInterrupted, "the search took too long");
+  }
   return plan;
 }
 
 /// Searches to `target`, and where no way leads there to the nearest cell within the goal's tolerance that
 /// one leads to. After kFound the way is in cells_.
-SearchOutcome Planner::search_nearest(const Start& start, const Goal& goal, GridCell target,
+SearchOutcome Planner::search_nearest(const Departure& start, const Goal& goal, GridCell target,
                                       const Interrupt& interrupt) {
   const auto search_to = [&](GridCell cell, OnNoPath on_no_path) {
-    return search_.search(grid_, start.way.back(), start.heading_rad, cell, interrupt, on_no_path);
+    return search_.search(grid_, start.from, start.from_rad, cell, interrupt, on_no_path);
   };
   SearchOutcome outcome = search_to(target, OnNoPath::kTellEarly);
   if (outcome == SearchOutcome::kNoPath && search_.told_early()) {
@@ -200,21 +183,25 @@ bool Planner::holds(const Plan& plan, const GridMap& map, const Pose& T_world_bo
   } catch (const std::invalid_argument&) {
     return false;
   }
-  const std::optional<Start> start = start_at(T_world_body);
-  return start && route_ahead(plan, *start).has_value();
+  const std::optional<Departure> start = departure_at(T_world_body);
+  return start && route_ahead(plan, *start, goal).has_value();
 }
 
-std::optional<Planner::Start> Planner::start_at(const Pose& T_world_body) const {
+std::optional<Departure> Planner::departure_at(const Pose& T_world_body) const {
   const auto here = T_world_body.translation();
-  const GridCell cell = grid_.cell_of(here.x(), here.y());
-  Start start{grid_.point_of(here.x(), here.y()), heading_of(T_world_body), {cell}};
-  if (grid_.search_grid().contains(cell) && grid_.passable(cell) &&
-      fits(grid_, start.here, start.heading_rad, Avoid::kBlocked))
-    return start;
-  auto way = way_out(grid_, cell, robot_.radius_m + kWayOut_m);
-  if (!way) return std::nullopt;
-  start.way = *std::move(way);
-  return start;
+  return departure(grid_, grid_.point_of(here.x(), here.y()), heading_of(T_world_body),
+                   robot_.radius_m + kWayOut_m);
+}
+
+/// A robot on its way leaves that no sooner than it can stop, as long as that stretch of it holds.
+Departure Planner::departure_in(const Motion& motion, const Departure& at_rest) const {
+  if (motion.previous == nullptr || motion.previous->route.corners.empty()) return at_rest;
+  const double speed_mps = std::min(motion.speed_mps, robot_.max_speed_mps);
+  const double stopping_m =
+      speed_mps * (kReaction_s + 0.5 * speed_mps / std::max(robot_.max_acceleration_mps2, 1e-3));
+  return departure_from_route(grid_, at_rest, motion.previous->route, stopping_m / grid_.pitch_m(),
+                              settings_.off_path_m / grid_.pitch_m())
+      .value_or(at_rest);
 }
 
 std::string Planner::why_start_is_blocked(const Pose& T_world_body) const {
@@ -228,30 +215,17 @@ std::string Planner::why_start_is_blocked(const Pose& T_world_body) const {
 /// The cell nearest to the goal, within its tolerance, that suits.
 std::optional<GridCell> Planner::nearest_to_goal(const Goal& goal,
                                                  const std::function<bool(GridCell)>& suits) const {
-  const double reach = std::max(goal.tolerance_m / grid_.pitch_m(), kEndCells);
-  return nearest_cell(grid_.search_grid(), grid_.point_of(goal.x_m, goal.y_m), reach, suits);
+  return nearest_cell(grid_.search_grid(), grid_.point_of(goal.x_m, goal.y_m), goal_reach(goal), suits);
 }
 
-/// Goes before a route's corners what leads there from where the robot stands.
-Route Planner::with_way_out(const Start& start, std::vector<GridPoint> corners) const {
-  Route route{grid_.origin(), {}, 0};
-  if (start.way.size() > 1) {
-    route.corners.push_back(start.here);
-    for (std::size_t i = 1; i + 1 < start.way.size(); ++i) {
-      const GridCell a = start.way[i - 1], b = start.way[i], c = start.way[i + 1];
-      if (b.x - a.x != c.x - b.x || b.y - a.y != c.y - b.y) route.corners.push_back(centre(b));
-    }
-    route.way_out = route.corners.size();
-  }
-  route.corners.insert(route.corners.end(), corners.begin(), corners.end());
-  return route;
+double Planner::goal_reach(const Goal& goal) const {
+  return std::max(goal.tolerance_m / grid_.pitch_m(), kEndCells);
 }
 
 /// The way that the last search found, with the robot's and the goal's own places at its ends where they lie
 /// in the open.
-Route Planner::route_of_cells(const Start& start, const Goal& goal) const {
-  // A way out ends where any heading fits.
-  const std::vector<GridPoint> centres = shorten(grid_, cells_, start.heading_rad);
+Route Planner::route_of_cells(const Departure& start, const Goal& goal) const {
+  const std::vector<GridPoint> centres = shorten(grid_, cells_, start.from_rad);
   std::vector<GridPoint> corners = centres;
   const auto replace = [&](GridPoint& corner, GridPoint place, GridPoint neighbour) {
     const bool stays_known =
@@ -259,24 +233,31 @@ Route Planner::route_of_cells(const Start& start, const Goal& goal) const {
     if (stays_known && line_clear(grid_, place, neighbour)) corner = place;
   };
   if (corners.size() > 1) {
-    if (start.way.size() == 1) replace(corners.front(), start.here, corners[1]);
+    if (start.at_once()) replace(corners.front(), start.here, corners[1]);
     const GridPoint end = grid_.point_of(goal.x_m, goal.y_m);
     if (distance(end, corners.back()) <= kEndCells) replace(corners.back(), end, corners[corners.size() - 2]);
   }
-  Route route = with_way_out(start, std::move(corners));
+  Route route = route_after(grid_, start, std::move(corners));
   if (!grid_.outline().is_circle() && !route_open(grid_, route, start.heading_rad))
-    route = with_way_out(start, centres);  // the turns are others than between centres
+    route = route_after(grid_, start, centres);  // the turns are others than between centres
   return route;
 }
 
-/// What is left of a plan's route for the robot; nothing where it has left it or a line of it is shut.
-std::optional<Route> Planner::route_ahead(const Plan& plan, const Start& start) const {
+/// What is left of a plan's route for the robot; nothing where it has left it, a line of it is shut or it
+/// leads to another goal.
+std::optional<Route> Planner::route_ahead(const Plan& plan, const Departure& start, const Goal& goal) const {
+  if (plan.route.corners.empty()) return std::nullopt;
   auto corners =
       corners_ahead(moved(plan.route, grid_.origin()), start.here, settings_.off_path_m / grid_.pitch_m());
   if (!corners) return std::nullopt;
-  const bool straight = start.way.size() == 1 && line_clear(grid_, start.here, corners->front());
-  corners->insert(corners->begin(), straight ? start.here : centre(start.way.back()));
-  Route route = with_way_out(start, *std::move(corners));
+  const GridPoint end = grid_.point_of(goal.x_m, goal.y_m);
+  if (distance(corners->back(), end) > goal_reach(goal) + kEndCells) return std::nullopt;
+  if (start.way_out > 0)
+    corners->insert(corners->begin(), centre(start.from));
+  else
+    corners->insert(corners->begin(),
+                    line_clear(grid_, start.here, corners->front()) ? start.here : centre(start.from));
+  Route route = route_after(grid_, start, *std::move(corners));
   if (!route_open(grid_, route, start.heading_rad)) return std::nullopt;
   return route;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mapping/grid_map.hpp"
+#include "planner/departure.hpp"
 #include "planner/plan.hpp"
 #include "planner/planning_grid.hpp"
 #include "planner/settings.hpp"
@@ -26,10 +27,10 @@ class Planner {
       : settings_(settings), robot_(robot), grid_(settings, robot) {}
 
   /// A plan from the pose to the goal. `previous`, where given, is the plan that the robot follows: its route
-  /// is kept unless it is shut, ends elsewhere, or is clearly dearer (keep_path_ratio). `interrupt` may end
-  /// the search.
+  /// is kept unless it is shut, ends elsewhere, or is clearly dearer (keep_path_ratio); at `speed_mps` the
+  /// robot leaves it no sooner than where it could stop. `interrupt` may end the search.
   Plan plan(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Plan* previous = nullptr,
-            const Interrupt& interrupt = {});
+            const Interrupt& interrupt = {}, double speed_mps = 0);
 
   /// Whether a plan may still be followed: the robot is on its route, and the map leaves that open.
   bool holds(const Plan& plan, const GridMap& map, const Pose& T_world_body, const Goal& goal);
@@ -39,24 +40,26 @@ class Planner {
 
  private:
   void bring_up_to_date(const GridMap& map, const Pose& T_world_body, const Goal& goal);
-  /// Where the search starts: the robot's place and heading, and the cells from there to where it fits.
-  struct Start {
-    GridPoint here;
-    double heading_rad = 0;
-    std::vector<GridCell> way;
+  /// The plan that the robot follows, if any, and how quickly.
+  struct Motion {
+    const Plan* previous;
+    double speed_mps;
   };
-  [[nodiscard]] std::optional<Start> start_at(const Pose& T_world_body) const;
+  [[nodiscard]] std::optional<Departure> departure_at(const Pose& T_world_body) const;
+  [[nodiscard]] Departure departure_in(const Motion& motion, const Departure& at_rest) const;
   [[nodiscard]] std::string why_start_is_blocked(const Pose& T_world_body) const;
   [[nodiscard]] std::optional<GridCell> nearest_to_goal(const Goal& goal,
                                                         const std::function<bool(GridCell)>& suits) const;
-  SearchOutcome search_nearest(const Start& start, const Goal& goal, GridCell target,
+  [[nodiscard]] double goal_reach(const Goal& goal) const;  ///< how far from it a way may end, cells
+  SearchOutcome search_nearest(const Departure& start, const Goal& goal, GridCell target,
                                const Interrupt& interrupt);
-  Plan find_route(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Plan* previous,
+  Plan find_route(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Motion& motion,
                   const Interrupt& interrupt);
-  Plan search(const Pose& T_world_body, const Goal& goal, const Plan* previous, const Interrupt& interrupt);
-  [[nodiscard]] Route with_way_out(const Start& start, std::vector<GridPoint> corners) const;
-  [[nodiscard]] Route route_of_cells(const Start& start, const Goal& goal) const;
-  [[nodiscard]] std::optional<Route> route_ahead(const Plan& plan, const Start& start) const;
+  Plan search(const Pose& T_world_body, const Goal& goal, const Motion& motion, const Interrupt& interrupt);
+  Plan out_of_time(const Departure& start, const Goal& goal, GridCell target, std::optional<Route> kept);
+  [[nodiscard]] Route route_of_cells(const Departure& start, const Goal& goal) const;
+  [[nodiscard]] std::optional<Route> route_ahead(const Plan& plan, const Departure& start,
+                                                 const Goal& goal) const;
   [[nodiscard]] bool clearly_better(const Route& next, const Route& kept, double heading_rad) const;
 
   PlannerSettings settings_;

@@ -52,7 +52,6 @@ void PlannerNode::subscribe(Inbox& inbox) {
   inbox.subscribe<goal_t>(channel::kGoal, Keep::kAll, [this](const goal_t& message, Micros) {
     if (!goal_.accept(message)) return;
     goal_changed_ = true;
-    plan_.reset();
   });
 }
 
@@ -93,6 +92,7 @@ void PlannerNode::accept_pose(const pose_t& message, Micros now) {
     return;
   }
   T_world_body_ = T_world_body;
+  speed_.add(message.utime, T_world_body);
   pose_utime_us_ = message.utime;
   pose_heard_ = now;
   inputs_changed_ = true;
@@ -169,8 +169,9 @@ bool PlannerNode::surroundings_seen() {
 
 path_t PlannerNode::plan(Budget& budget) {
   const Plan* const previous = plan_ ? &*plan_ : nullptr;
-  Plan next = planner_.plan(map_.map(), T_world_body_, goal_.goal(), previous,
-                            [&] { return !budget.spend(kWorkBetweenInterrupts_ns); });
+  Plan next = planner_.plan(
+      map_.map(), T_world_body_, goal_.goal(), previous,
+      [&] { return !budget.spend(kWorkBetweenInterrupts_ns); }, speed_.mps());
   if (next.status == PlanStatus::kInterrupted) {
     ++interrupted_;
     plan_.reset();

@@ -9,6 +9,7 @@
 #include "floornav/pose_t.hpp"
 #include "mapping/node/grid_map_message.hpp"
 #include "planner/node/goal_desk.hpp"
+#include "planner/node/speed_estimate.hpp"
 #include "planner/planner.hpp"
 #include "runtime/geometry/pose.hpp"
 #include "runtime/process/node.hpp"
@@ -51,6 +52,7 @@ class PlannerNode final : public Node {
   std::optional<Plan> plan_;  ///< that the robot follows
 
   Pose T_world_body_ = Pose::Identity();
+  SpeedEstimate speed_;
   std::int64_t pose_utime_us_ = 0;
   std::optional<Micros> pose_heard_;
   std::optional<Micros> map_heard_;
