@@ -49,8 +49,7 @@ bool clear(const PlanningGrid& grid, const ConvexArea& area, Avoid avoid) {
 /// Nothing is near enough for the outline to matter.
 bool all_roomy(const PlanningGrid& grid, GridPoint a, GridPoint b) {
   const auto is_roomy = [&](GridPoint p) {
-    const GridCell cell{static_cast<std::int32_t>(std::floor(p.x + 0.5)),
-                        static_cast<std::int32_t>(std::floor(p.y + 0.5))};
+    const GridCell cell = cell_at(p);
     return grid.search_grid().contains(cell) && grid.roomy(cell);
   };
   const int pieces = std::max(1, static_cast<int>(std::ceil(std::hypot(b.x - a.x, b.y - a.y))));

@@ -8,10 +8,6 @@
 namespace floornav {
 namespace {
 
-GridCell cell_at(GridPoint p) {
-  return {static_cast<std::int32_t>(std::floor(p.x + 0.5)), static_cast<std::int32_t>(std::floor(p.y + 0.5))};
-}
-
 double distance(GridPoint a, GridPoint b) {
   return std::hypot(b.x - a.x, b.y - a.y);
 }

@@ -10,10 +10,6 @@
 namespace floornav {
 namespace {
 
-std::int32_t cell_index(double coordinate) {
-  return static_cast<std::int32_t>(std::floor(coordinate));
-}
-
 GridPoint between(GridPoint a, GridPoint b, double t) {
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
 }
@@ -25,7 +21,7 @@ class PathWriter {
 
   void add(GridPoint p, double heading_rad) {
     PathPoint point{.x_m = grid_.x_of(p.x), .y_m = grid_.y_of(p.y), .heading_rad = heading_rad};
-    const GridCell cell{cell_index(p.x + 0.5), cell_index(p.y + 0.5)};
+    const GridCell cell = cell_at(p);
     read_terrain(cell, point);
     point.clearance_m = grid_.clearance_m(cell);
     point.assumed = grid_.floor(cell) == Floor::kAssumed;

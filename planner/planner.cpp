@@ -9,7 +9,9 @@
 #include "planner/clear_way.hpp"
 #include "planner/nearest_cell.hpp"
 #include "planner/path_shape.hpp"
+#include "planner/shortening.hpp"
 #include "planner/speed_profile.hpp"
+#include "planner/taut_way.hpp"
 
 namespace floornav {
 namespace {
@@ -225,7 +227,9 @@ double Planner::goal_reach(const Goal& goal) const {
 /// The way that the last search found, with the robot's and the goal's own places at its ends where they lie
 /// in the open.
 Route Planner::route_of_cells(const Departure& start, const Goal& goal) const {
-  const std::vector<GridPoint> centres = shorten(grid_, cells_, start.from_rad);
+  const double turn_cost = settings_.turn_cost / grid_.pitch_m();
+  const std::vector<GridPoint> centres =
+      pulled_taut(grid_, shorten(grid_, cells_, start.from_rad), start.from_rad, turn_cost);
   std::vector<GridPoint> corners = centres;
   const auto replace = [&](GridPoint& corner, GridPoint place, GridPoint neighbour) {
     const bool stays_known =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,11 @@
 #include "runtime/geometry/lattice.hpp"
 
 namespace floornav {
+
+/// Of the straight line from one place to another.
+inline double heading_between(GridPoint a, GridPoint b) {
+  return std::atan2(b.y - a.y, b.x - a.x);
+}
 
 /// Straight lines from corner to corner, in columns and rows of a grid whose cell (0, 0) is `origin` of the
 /// map.
@@ -20,12 +26,6 @@ struct Route {
 
 /// The same route on a grid with another origin.
 Route moved(const Route& route, CellIndex origin);
-
-/// Leaves out cells of a path between which the straight line is clear and costs no more than the path does,
-/// and the turns at its ends are clear, the first from `heading_rad`. A stretch over known free floor stays
-/// on it, and does not merge with one over unknown floor.
-std::vector<GridPoint> shorten(const PlanningGrid& grid, const std::vector<GridCell>& path,
-                               double heading_rad);
 
 /// Every line of the route but those of its way out is clear (line_clear), and so is every turn, the first
 /// from `heading_rad`.

@@ -72,16 +72,11 @@ bool squares_open(const SearchGrid& grid, GridPoint a, GridPoint b) {
   return true;
 }
 
-GridCell nearest_cell(GridPoint p) {
-  return {static_cast<std::int32_t>(std::floor(p.x + 0.5)), static_cast<std::int32_t>(std::floor(p.y + 0.5))};
-}
-
 }  // namespace
 
 bool line_open(const SearchGrid& grid, GridPoint a, GridPoint b) {
-  if (!grid.contains(nearest_cell(a)) || !grid.contains(nearest_cell(b))) return false;
-  return is_centre(a) && is_centre(b) ? centres_open(grid, nearest_cell(a), nearest_cell(b))
-                                      : squares_open(grid, a, b);
+  if (!grid.contains(cell_at(a)) || !grid.contains(cell_at(b))) return false;
+  return is_centre(a) && is_centre(b) ? centres_open(grid, cell_at(a), cell_at(b)) : squares_open(grid, a, b);
 }
 
 double line_cost(const SearchGrid& grid, GridPoint a, GridPoint b) {
@@ -90,7 +85,7 @@ double line_cost(const SearchGrid& grid, GridPoint a, GridPoint b) {
   double weights = 0;
   for (int i = 0; i < samples; ++i) {
     const double t = (i + 0.5) / samples;
-    const GridCell cell = nearest_cell({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
+    const GridCell cell = cell_at({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
     weights += grid.weights.empty() ? 0.0 : grid.weights[grid.index(cell)];
   }
   return length * (1.0 + weights / samples / SearchGrid::kWeightUnit);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "planner/search/search_grid.hpp"
 
 namespace floornav {
@@ -13,6 +15,11 @@ struct GridPoint {
 
 inline GridPoint centre(GridCell cell) {
   return {static_cast<double>(cell.x), static_cast<double>(cell.y)};
+}
+
+/// The cell that holds a place; it may lie off the grid.
+inline GridCell cell_at(GridPoint p) {
+  return {static_cast<std::int32_t>(std::floor(p.x + 0.5)), static_cast<std::int32_t>(std::floor(p.y + 0.5))};
 }
 
 /// Whether one may go straight from a to b over open edges only: the line keeps to open edges, where it runs
