@@ -20,6 +20,8 @@ namespace {
 constexpr double kEndCells = 0.75;
 /// The goal counts as reached from here on: it covers the cell in which a way may end.
 constexpr double kReachedCells = 1.5;
+/// Slower than this the robot stands.
+constexpr double kAtRest_mps = 0.1;
 /// What passes between a pose and the wheels' answer to the path that begins there.
 constexpr double kReaction_s = 0.2;
 /// Beyond its own radius a robot that does not fit where it stands looks this far for a place where it does.
@@ -70,8 +72,9 @@ Plan Planner::find_route(const GridMap& map, const Pose& T_world_body, const Goa
                          const Interrupt& interrupt) {
   const auto here = T_world_body.translation();
   const double to_goal_m = std::hypot(goal.x_m - here.x(), goal.y_m - here.y());
-  if (to_goal_m <= std::max(goal.tolerance_m, kReachedCells * map.lattice().pitch_m))
-    return refusal(PlanStatus::kReached, "the goal is " + in_metres(to_goal_m) + " away");
+  const bool there = to_goal_m <= std::max(goal.tolerance_m, kReachedCells * map.lattice().pitch_m);
+  const Plan reached = refusal(PlanStatus::kReached, "the goal is " + in_metres(to_goal_m) + " away");
+  if (there && motion.speed_mps <= kAtRest_mps) return reached;
   if (to_goal_m > settings_.max_distance_m)
     return refusal(PlanStatus::kNoPath,
                    "the goal is " + in_metres(to_goal_m) + " away, more than max_distance_m");
@@ -80,7 +83,19 @@ Plan Planner::find_route(const GridMap& map, const Pose& T_world_body, const Goa
   } catch (const std::invalid_argument& error) {
     return refusal(PlanStatus::kNoPath, error.what());
   }
+  if (there) return coming_to_rest(T_world_body, motion).value_or(reached);
   return search(T_world_body, goal, motion, interrupt);
+}
+
+/// What is left of its route to a robot that is near enough to its goal, until it can stop.
+std::optional<Plan> Planner::coming_to_rest(const Pose& T_world_body, const Motion& motion) const {
+  const std::optional<Departure> here = departure_at(T_world_body);
+  if (!here) return std::nullopt;
+  const Departure end = departure_in(motion, *here);
+  if (!end.committed) return std::nullopt;
+  Plan plan;
+  plan.route = route_after(grid_, end, {centre(end.from)});
+  return plan;
 }
 
 void Planner::bring_up_to_date(const GridMap& map, const Pose& T_world_body, const Goal& goal) {

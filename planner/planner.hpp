@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mapping/grid_map.hpp"
@@ -35,6 +36,9 @@ class Planner {
   /// Whether a plan may still be followed: the robot is on its route, and the map leaves that open.
   bool holds(const Plan& plan, const GridMap& map, const Pose& T_world_body, const Goal& goal);
 
+  /// From now on ways keep off what was never seen within any of these circles: it was looked at in vain.
+  void shut_unknown(std::vector<AssumedFloor> circles) { grid_.shut_unknown(std::move(circles)); }
+
   /// Another map follows, or the robot was carried elsewhere.
   void forget();
 
@@ -55,6 +59,7 @@ class Planner {
                                const Interrupt& interrupt);
   Plan find_route(const GridMap& map, const Pose& T_world_body, const Goal& goal, const Motion& motion,
                   const Interrupt& interrupt);
+  [[nodiscard]] std::optional<Plan> coming_to_rest(const Pose& T_world_body, const Motion& motion) const;
   Plan search(const Pose& T_world_body, const Goal& goal, const Motion& motion, const Interrupt& interrupt);
   Plan out_of_time(const Departure& start, const Goal& goal, GridCell target, std::optional<Route> kept);
   [[nodiscard]] Route route_of_cells(const Departure& start, const Goal& goal) const;

@@ -152,7 +152,7 @@ void PlanningGrid::take_tile(const GridTile* tile, std::int32_t x0, std::int32_t
       const std::size_t to = search_.index({x, y});
       const VertexState state = tile != nullptr ? tile->state[from] : VertexState::kUnknown;
       if (state == VertexState::kUnknown) {
-        set_floor(to, within(assumed_, x, y) ? kAssumed : kUnknown);
+        set_floor(to, never_seen(x, y));
         map_edges_[to] = 0xFF;
         terrain_[to] = 0;
         continue;
@@ -304,6 +304,14 @@ double PlanningGrid::clearance_m(GridCell cell) const {
 GridCell PlanningGrid::cell_of(double x_m, double y_m) const {
   const CellIndex cell = lattice_.cell_of(x_m, y_m);
   return {cell.ix - window_.x0, cell.iy - window_.y0};
+}
+
+/// What a cell that was never seen is taken for.
+std::uint8_t PlanningGrid::never_seen(std::int32_t x, std::int32_t y) const {
+  if (within(assumed_, x, y)) return kAssumed;
+  const bool shut =
+      std::any_of(shut_.begin(), shut_.end(), [&](const AssumedFloor& c) { return within(c, x, y); });
+  return shut ? kBlocked : kUnknown;
 }
 
 bool PlanningGrid::within(const AssumedFloor& circle, std::int32_t x, std::int32_t y) const {

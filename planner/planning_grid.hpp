@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "mapping/grid_map.hpp"
@@ -23,7 +24,8 @@ enum class Floor : std::uint8_t { kFree, kAssumed, kUnknown, kBlocked };
 /// What the robot must not touch.
 enum class Avoid : std::uint8_t { kBlocked, kBlockedAndUnknown };
 
-/// A circle, around the place where the robot started say: what was never seen in it is taken for floor.
+/// A circle, around the place where the robot started say: what was never seen in it is taken for floor, or
+/// for none.
 struct AssumedFloor {
   double x_m = 0;
   double y_m = 0;
@@ -49,6 +51,11 @@ class PlanningGrid {
               const AssumedFloor& stands = {});
   /// The next update starts afresh: another map follows.
   void forget() { window_ = {}; }
+  /// From the next update on: what was never seen within any of these circles counts as blocked.
+  void shut_unknown(std::vector<AssumedFloor> circles) {
+    forget();
+    shut_ = std::move(circles);
+  }
 
   [[nodiscard]] const SearchGrid& search_grid() const { return search_; }
   /// The cells between which every step that the corner rule allows is open (in_the_open).
@@ -127,6 +134,7 @@ class PlanningGrid {
   }
   [[nodiscard]] bool map_edge_open(std::size_t from, std::size_t to, std::size_t k) const;
   [[nodiscard]] std::uint8_t edges_at(std::int32_t x, std::int32_t y) const;
+  [[nodiscard]] std::uint8_t never_seen(std::int32_t x, std::int32_t y) const;
   [[nodiscard]] bool within(const AssumedFloor& circle, std::int32_t x, std::int32_t y) const;
   [[nodiscard]] double metres(std::int16_t gap) const;
 
@@ -135,6 +143,7 @@ class PlanningGrid {
   RobotOutline outline_;
   Lattice lattice_;
   AssumedFloor assumed_;
+  std::vector<AssumedFloor> shut_;
   std::int32_t epoch_ = 0;
   std::int64_t version_ = 0;
   CellRect window_;                        ///< cells of the map that the grid covers, whole tiles

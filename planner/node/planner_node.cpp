@@ -22,6 +22,10 @@ constexpr int kTicksBetweenPaths = 4;
 constexpr double kLatePeriods = 2.5;
 constexpr double kSoonest_ms = 200.0;
 constexpr double kSmoothing = 0.2;
+/// A path shorter than this ends where the robot stands.
+constexpr double kAtFrontier_m = 0.15;
+/// Floor that cannot be seen is given up this far around the robot's circle.
+constexpr double kGivenUp_m = 0.6;
 constexpr std::int64_t kWorkBetweenInterrupts_ns = 70 * AStar::kExpansionsBetweenInterrupts;
 
 std::chrono::duration<double, std::milli> milliseconds(double ms) {
@@ -38,7 +42,7 @@ path_t stop_message(std::int8_t status, std::string reason) {
 }  // namespace
 
 PlannerNode::PlannerNode(const PlannerSettings& settings, const RobotSettings& robot)
-    : settings_(settings), planner_(settings, robot) {}
+    : settings_(settings), radius_m_(robot.radius_m), planner_(settings, robot) {}
 
 std::vector<std::string> PlannerNode::outputs() const {
   return {channel::kPath};
@@ -52,6 +56,7 @@ void PlannerNode::subscribe(Inbox& inbox) {
   inbox.subscribe<goal_t>(channel::kGoal, Keep::kAll, [this](const goal_t& message, Micros) {
     if (!goal_.accept(message)) return;
     goal_changed_ = true;
+    open_all();
   });
 }
 
@@ -66,6 +71,7 @@ void PlannerNode::accept_map(const grid_map_t& message, Micros now) {
   if (!change.restarted) return;
   surroundings_seen_ = false;
   plan_.reset();
+  open_all();
   planner_.forget();
 }
 
@@ -134,7 +140,7 @@ path_t PlannerNode::next_path(Micros now, Budget& budget) {
     trouble_ = message->reason;
     return *std::move(message);
   }
-  return plan(budget);
+  return plan(now, budget);
 }
 
 std::optional<path_t> PlannerNode::stale(Micros now) {
@@ -167,11 +173,47 @@ bool PlannerNode::surroundings_seen() {
   return surroundings_seen_;
 }
 
-path_t PlannerNode::plan(Budget& budget) {
+Plan PlannerNode::plan_within(Budget& budget) {
   const Plan* const previous = plan_ ? &*plan_ : nullptr;
-  Plan next = planner_.plan(
+  return planner_.plan(
       map_.map(), T_world_body_, goal_.goal(), previous,
       [&] { return !budget.spend(kWorkBetweenInterrupts_ns); }, speed_.mps());
+}
+
+/// The robot has stood where known floor ends for long enough.
+bool PlannerNode::looked_in_vain(const Plan& plan, Micros now) {
+  if (plan.status != PlanStatus::kFrontier || plan.length_m > kAtFrontier_m) {
+    at_frontier_since_.reset();
+    return false;
+  }
+  if (!at_frontier_since_) at_frontier_since_ = now;
+  return now - *at_frontier_since_ > milliseconds(1e3 * settings_.frontier_timeout_s);
+}
+
+void PlannerNode::open_all() {
+  at_frontier_since_.reset();
+  if (given_up_.empty()) return;
+  given_up_.clear();
+  planner_.shut_unknown({});
+}
+
+void PlannerNode::give_up_floor_ahead() {
+  const auto here = T_world_body_.translation();
+  given_up_.push_back({here.x(), here.y(), radius_m_ + kGivenUp_m});
+  planner_.shut_unknown(given_up_);
+  at_frontier_since_.reset();
+}
+
+path_t PlannerNode::plan(Micros now, Budget& budget) {
+  Plan next = plan_within(budget);
+  if (looked_in_vain(next, now)) {
+    give_up_floor_ahead();
+    next = plan_within(budget);
+  }
+  if (!given_up_.empty() && (next.status == PlanStatus::kNoPath || next.status == PlanStatus::kGoalBlocked)) {
+    open_all();
+    next = plan_within(budget);
+  }
   if (next.status == PlanStatus::kInterrupted) {
     ++interrupted_;
     plan_.reset();

@@ -38,7 +38,11 @@ class PlannerNode final : public Node {
   void accept_pose(const pose_t& message, Micros now);
   [[nodiscard]] bool must_replan();
   [[nodiscard]] path_t next_path(Micros now, Budget& budget);
-  [[nodiscard]] path_t plan(Budget& budget);
+  [[nodiscard]] path_t plan(Micros now, Budget& budget);
+  [[nodiscard]] Plan plan_within(Budget& budget);
+  [[nodiscard]] bool looked_in_vain(const Plan& plan, Micros now);
+  void give_up_floor_ahead();
+  void open_all();
   [[nodiscard]] std::optional<path_t> stale(Micros now);
   void hear_evidence(Micros now);
   [[nodiscard]] std::chrono::duration<double, std::milli> evidence_timeout() const;
@@ -46,10 +50,13 @@ class PlannerNode final : public Node {
   void publish(path_t message, Outbox& out);
 
   PlannerSettings settings_;
+  double radius_m_;
   Planner planner_;
   GridMapReceiver map_;
   GoalDesk goal_;
-  std::optional<Plan> plan_;  ///< that the robot follows
+  std::optional<Plan> plan_;                 ///< that the robot follows
+  std::optional<Micros> at_frontier_since_;  ///< where the path ended at once before floor never seen
+  std::vector<AssumedFloor> given_up_;       ///< floor that was looked at in vain on the way to this goal
 
   Pose T_world_body_ = Pose::Identity();
   SpeedEstimate speed_;

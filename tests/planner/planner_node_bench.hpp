@@ -89,6 +89,7 @@ class Bench {
     return health;
   }
   [[nodiscard]] ChannelCounts counts(const std::string& channel) const { return inbox_.counts().at(channel); }
+  [[nodiscard]] Micros now() const { return now_; }
   [[nodiscard]] std::int64_t utime() const { return 1'700'000'000'000'000 + now_.count(); }
 
   std::vector<path_t> paths;

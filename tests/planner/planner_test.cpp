@@ -111,6 +111,18 @@ TEST(Planner, SaysReachedWithinTheTolerance) {
   EXPECT_EQ(planner.plan(map, pose_at(2, 3), {2.1, 3, 0.0}).status, PlanStatus::kReached);
 }
 
+TEST(Planner, ComesToRestWithinTheToleranceBeforeItSaysReached) {
+  const GridMap map = draw_map(room(100, 60), kCell_m);
+  Planner planner({}, robot());
+  const Goal goal{8, 3, 3.0};
+  const Plan before = planner.plan(map, pose_at(2, 3), goal);
+  const Plan braking = planner.plan(map, pose_at(5.1, 3), goal, &before, {}, 1.0);
+  ASSERT_EQ(braking.status, PlanStatus::kFollowing) << braking.reason;
+  EXPECT_NEAR(braking.length_m, 1.2, 0.15);  // 0.2 s, and 1 m at 0.5 m/s2
+  EXPECT_EQ(braking.points.back().speed_mps, 0.0);
+  EXPECT_EQ(planner.plan(map, pose_at(6.1, 3), goal, &braking, {}, 0.05).status, PlanStatus::kReached);
+}
+
 TEST(Planner, RefusesAGoalTooFarAway) {
   const GridMap map = draw_map(room(100, 60), kCell_m);
   Planner planner({}, robot());

@@ -4,20 +4,21 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "floornav/goal_t.hpp"
 #include "lcmtypes/channels.hpp"
 #include "mapping/node/mapper_node.hpp"
 #include "perception/node/perception_node.hpp"
 #include "planner/node/planner_node.hpp"
 #include "runtime/process/replay_executor.hpp"
 #include "tools/simulate/drive_base.hpp"
+#include "tools/simulate/errand.hpp"
 #include "tools/simulate/path_follower.hpp"
 #include "tools/simulate/true_map.hpp"
+#include "tools/simulate/walkers.hpp"
 #include "tools/simulator/depth_sensor.hpp"
 #include "tools/simulator/drive.hpp"
 #include "tools/simulator/messages.hpp"
@@ -37,8 +38,6 @@ constexpr Micros kGoalPeriod = 500ms;
 constexpr Micros kControlPeriod = 50ms;
 constexpr Micros kLookPeriod = 50ms;  ///< at collisions
 constexpr double kGoalTolerance_m = 0.2;
-constexpr double kPersonalSpace_m =
-    1.2;  ///< between the middles of robot and person: half a metre between their hulls
 constexpr double kGoalSlack_m = 0.1;      ///< for the noise of what the robot believes
 constexpr double kEndTolerance_m = 0.05;  ///< as the place where a run ended
 constexpr double kSecondsPerMetre = 8.0;
@@ -89,8 +88,8 @@ class ClosedLoop {
         out_({"simulate", 1}),
         shortest_m_(shortest_way_m(world.truth, robot.radius_m, {0, 0}, *world.scene.goal_m, kGoalTolerance_m)
                         .value_or(world.scene.goal_m->norm())),
-        people_s_(world.scene.people.size(), 0.0),
-        waited_(world.scene.people.size(), Micros(0)) {}
+        walkers_(world.scene),
+        errand_(*world.scene.goal_m, kGoalTolerance_m) {}
 
   ClosedLoopResult run() {
     ClosedLoopResult result;
@@ -99,13 +98,13 @@ class ClosedLoop {
       deliver();
       control();
       base_.move(command_, seconds_of(kStep));
-      if (base_.speed_mps() > 0.01 || std::abs(base_.turn_radps()) > 0.01) last_motion_ = now_;
-      walk();
+      if (moves()) last_motion_ = now_;
+      walkers_.walk(base_.state().position_m, seconds_of(kStep));
       if (now_ % kLookPeriod == Micros(0)) {
         result.reason = look_for_trouble();
         if (!result.reason.empty()) return finish(result, Outcome::kCollided);
       }
-      const bool says_reached = follower_.path() && follower_.path()->status == path_t::REACHED;
+      const bool says_reached = follower_.path() && errand_.done(*follower_.path());
       if (says_reached && base_.speed_mps() == 0.0) return finish(result, outcome_at_rest());
       if (now_ - last_motion_ > micros_of(settings_.patience_s)) break;
     }
@@ -118,57 +117,14 @@ class ClosedLoop {
                                           : kSecondsAtLeast + kSecondsPerMetre * shortest_m_);
   }
 
+  [[nodiscard]] bool moves() const { return base_.speed_mps() > 0.01 || std::abs(base_.turn_radps()) > 0.01; }
+
   [[nodiscard]] Pose body() const { return body_on_floor(world_.scene.fixed, base_.state()); }
-
-  /// People go on, but for those who would come too near to the robot.
-  void walk() {
-    const Eigen::Vector2d robot = base_.state().position_m;
-    for (std::size_t i = 0; i < people_s_.size(); ++i) {
-      const Person& person = world_.scene.people[i];
-      const double next_s = people_s_[i] + seconds_of(kStep);
-      const double then = (person.place_m(next_s) - robot).norm();
-      const bool goes_on = then > kPersonalSpace_m || then > (person.place_m(people_s_[i]) - robot).norm();
-      if (goes_on) people_s_[i] = next_s;
-      waited_[i] = goes_on ? Micros(0) : waited_[i] + kStep;
-    }
-  }
-
-  /// What happened between the robot and the person nearest to it.
-  [[nodiscard]] std::string meeting() const {
-    const Eigen::Vector2d robot = base_.state().position_m;
-    std::size_t nearest = 0;
-    for (std::size_t i = 1; i < people_s_.size(); ++i)
-      if ((place_of(i) - robot).norm() < (place_of(nearest) - robot).norm()) nearest = i;
-    const Eigen::Vector2d way = place_of(nearest) - robot;
-    const Eigen::Vector2d ahead = base_.state().ahead;
-    const double bearing_rad = std::atan2(ahead.x() * way.y() - ahead.y() * way.x(), ahead.dot(way));
-    return fmt::format(
-        "hit a person {:.2f} m away, {:.0f} deg to the left, who {}; robot {:.2f} m/s, turning {:.2f} rad/s",
-        way.norm(), bearing_rad * 180.0 / std::numbers::pi,
-        waited_[nearest] > Micros(0) ? fmt::format("had waited {:.1f} s", seconds_of(waited_[nearest]))
-                                     : std::string("walked"),
-        base_.speed_mps(), base_.turn_radps());
-  }
-
-  [[nodiscard]] Eigen::Vector2d place_of(std::size_t person) const {
-    return world_.scene.people[person].place_m(people_s_[person]);
-  }
 
   std::string look_for_trouble() {
     if (record_ != nullptr) record_->driven_m.push_back(base_.state().position_m);
     std::string trouble = base_.trouble(world_.scene.fixed);
-    if (!trouble.empty() || people_s_.empty()) return trouble;
-    Shapes people;
-    people.ground = world_.scene.fixed.ground;
-    people.cylinders = world_.scene.people_at(people_s_);
-    return base_.touched(people).empty() ? "" : meeting();
-  }
-
-  [[nodiscard]] Shapes world_now() const {
-    Shapes shapes = world_.scene.fixed;
-    const auto people = world_.scene.people_at(people_s_);
-    shapes.cylinders.insert(shapes.cylinders.end(), people.begin(), people.end());
-    return shapes;
+    return trouble.empty() ? walkers_.meeting(base_) : trouble;
   }
 
   /// The planner's word is checked: reached is where the robot truly is near the goal, the odometry's noise
@@ -209,20 +165,13 @@ class ClosedLoop {
       send(settings_.cloud_latency_s);
     }
     if (now_ % kGoalPeriod == Micros(0)) {
-      goal_t goal{};
-      goal.utime = utime_us;
-      goal.id = 1;
-      goal.command = goal_t::GO;
-      goal.pos[0] = world_.scene.goal_m->x();
-      goal.pos[1] = world_.scene.goal_m->y();
-      goal.tolerance = static_cast<float>(kGoalTolerance_m);
-      out_.publish(channel::kGoal, goal);
+      out_.publish(channel::kGoal, errand_.goal(utime_us));
       send(0.0);
     }
   }
 
   void render(std::int64_t utime_us) {
-    const auto pixels = sensor_.measure(world_now(), body(), frame_);
+    const auto pixels = sensor_.measure(walkers_.world(), body(), frame_);
     const bool is_kinect = settings_.sensor.kind == SensorKind::kKinect;
     out_.publish(is_kinect ? channel::kKinectCloud : channel::kBumblebeeCloud,
                  cloud_message(sensor_, pixels, utime_us, frame_++));
@@ -294,7 +243,15 @@ class ClosedLoop {
       follower_.accept(paths_on_the_way_.begin()->second, now_);
       paths_on_the_way_.erase(paths_on_the_way_.begin());
     }
-    if (now_ % kControlPeriod == Micros(0)) command_ = follower_.command(believed_, base_.speed_mps(), now_);
+    if (now_ % kControlPeriod != Micros(0)) return;
+    if (follower_.path()) errand_.follow(*follower_.path(), believed_.position_m, moves(), now_);
+    command_ = errand_.looks_around() ? look_around() : follower_.command(believed_, base_.speed_mps(), now_);
+  }
+
+  DriveCommand look_around() {
+    const std::optional<DriveCommand> command = follower_.look_around(believed_, base_.speed_mps());
+    if (!command) errand_.has_looked();
+    return command.value_or(DriveCommand{});
   }
 
   const RandomWorld& world_;
@@ -314,8 +271,8 @@ class ClosedLoop {
   Outbox out_;
   double shortest_m_;
 
-  std::vector<double> people_s_;  ///< how long each has walked
-  std::vector<Micros> waited_;    ///< for how long each has waited for the robot, 0: walks
+  Walkers walkers_;
+  Errand errand_;
   Micros now_{0};
   Micros last_motion_{0};
   std::int64_t frame_ = 0;

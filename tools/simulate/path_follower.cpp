@@ -79,10 +79,22 @@ bool must_look(const path_t& path, const Eigen::Vector2d& position) {
 
 void PathFollower::accept(const path_t& path, Micros now) {
   path_ = path;
+  if (!path.points.empty()) last_points_ = path.points;
   received_ = now;
 }
 
-DriveCommand PathFollower::look_around(const PlanarState& believed) {
+bool PathFollower::has_room_to_turn(const Eigen::Vector2d& place_m) const {
+  if (robot_.footprint.empty()) return true;
+  return std::any_of(last_points_.begin(), last_points_.end(), [&](const path_point_t& p) {
+    const Eigen::Vector2d there(static_cast<double>(p.x), static_cast<double>(p.y));
+    const double off_m = (there - place_m).norm();
+    return off_m < kSamePlace_m && static_cast<double>(p.clearance) >= robot_.radius_m + off_m;
+  });
+}
+
+std::optional<DriveCommand> PathFollower::look_around(const PlanarState& believed, double speed_mps) {
+  if (speed_mps > kSlowest_mps) return DriveCommand{};
+  if (!has_room_to_turn(believed.position_m)) return std::nullopt;
   if (!look_ || (believed.position_m - look_->place_m).norm() > kSamePlace_m) {
     double side = 0;
     if (!path_->points.empty()) {
@@ -93,14 +105,15 @@ DriveCommand PathFollower::look_around(const PlanarState& believed) {
   }
   look_->turned_rad += std::atan2(cross(look_->ahead, believed.ahead), look_->ahead.dot(believed.ahead));
   look_->ahead = believed.ahead;
-  if (std::fabs(look_->turned_rad) >= 2.0 * std::numbers::pi) return {};
-  return {0.0, look_->direction * std::min(kLookTurn_radps, robot_.max_turn_rate_radps)};
+  if (std::fabs(look_->turned_rad) >= 2.0 * std::numbers::pi) return std::nullopt;
+  return DriveCommand{0.0, look_->direction * std::min(kLookTurn_radps, robot_.max_turn_rate_radps)};
 }
 
 DriveCommand PathFollower::command(const PlanarState& believed, double speed_mps, Micros now) {
   if (!path_) return {};
   if (now - received_ > std::chrono::milliseconds(path_->valid_for_ms)) return {};
-  if (must_look(*path_, believed.position_m)) return look_around(believed);
+  if (must_look(*path_, believed.position_m))
+    return look_around(believed, speed_mps).value_or(DriveCommand{});
   if (path_->status != path_t::FOLLOWING && path_->status != path_t::FRONTIER) return {};
   if (path_->points.empty()) return {};
   const PlaceOnPath here = nearest_place(*path_, believed.position_m);

@@ -81,6 +81,35 @@ TEST(PathFollower, LooksAroundWhereThereIsNoWayAndNotWhereSomethingTouchesIt) {
   EXPECT_EQ(follower.command({}, 0.0, 30ms).turn_radps, 0.0);
 }
 
+TEST(PathFollower, TurnsARobotThatIsNoCircleOnlyWhereItsCircleHasRoom) {
+  RobotSettings robot;
+  robot.footprint = {{0.4, 0.2}, {-0.4, 0.2}, {-0.4, -0.2}, {0.4, -0.2}};
+  path_t none{};
+  none.valid_for_ms = 250;
+  none.status = path_t::NO_PATH;
+  for (const bool roomy : {false, true}) {
+    PathFollower follower(robot);
+    follower.accept(none, 0us);
+    EXPECT_EQ(follower.command({}, 0.0, 10ms).turn_radps, 0.0) << "no path has told of any room yet";
+    path_t path = corner_path();
+    for (path_point_t& point : path.points) point.clearance = roomy ? 0.6F : 0.3F;
+    follower.accept(path, 20ms);
+    follower.accept(none, 30ms);
+    EXPECT_EQ(follower.command({}, 0.0, 40ms).turn_radps != 0.0, roomy);
+    EXPECT_EQ(follower.command({{9, 9}, {1, 0}}, 0.0, 50ms).turn_radps, 0.0);
+  }
+}
+
+TEST(PathFollower, ComesToRestBeforeItLooksAround) {
+  PathFollower follower(RobotSettings{});
+  path_t none{};
+  none.valid_for_ms = 250;
+  none.status = path_t::NO_PATH;
+  follower.accept(none, 0us);
+  EXPECT_EQ(follower.command({}, 0.5, 10ms).turn_radps, 0.0);
+  EXPECT_NE(follower.command({}, 0.0, 20ms).turn_radps, 0.0);
+}
+
 TEST(PathFollower, TurnsOnceAroundItselfAtTheFrontierTowardsThePathsHeading) {
   const RobotSettings robot;
   PathFollower follower(robot);
