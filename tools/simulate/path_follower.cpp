@@ -13,6 +13,7 @@ constexpr double kTurnGain_perS = 2.0;
 constexpr double kSpeedLook_m = 0.1;  ///< the speed that holds there is driven here
 constexpr double kSlowest_mps = 0.02;
 constexpr double kAtEnd_m = 0.1;
+constexpr double kBeyondEnd_m = 0.3;  ///< a look around is broken off for a path as long as this
 constexpr double kLookTurn_radps = 0.6;
 constexpr double kSamePlace_m = 0.15;
 
@@ -69,10 +70,10 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 }
 
 /// Whether more must be seen before the robot can go on.
-bool must_look(const path_t& path, const Eigen::Vector2d& position) {
+bool must_look(const path_t& path, const Eigen::Vector2d& position, double at_end_m) {
   if (path.status == path_t::NO_PATH || path.status == path_t::GOAL_BLOCKED) return true;
   if (path.status != path_t::FRONTIER) return false;
-  return path.points.empty() || (point_of(path, path.points.size() - 1) - position).norm() < kAtEnd_m;
+  return path.points.empty() || (point_of(path, path.points.size() - 1) - position).norm() < at_end_m;
 }
 
 }  // namespace
@@ -81,6 +82,10 @@ void PathFollower::accept(const path_t& path, Micros now) {
   path_ = path;
   if (!path.points.empty()) last_points_ = path.points;
   received_ = now;
+}
+
+bool PathFollower::is_looking() const {
+  return look_ && std::fabs(look_->turned_rad) > 0 && std::fabs(look_->turned_rad) < 2.0 * std::numbers::pi;
 }
 
 bool PathFollower::has_room_to_turn(const Eigen::Vector2d& place_m) const {
@@ -112,9 +117,10 @@ std::optional<DriveCommand> PathFollower::look_around(const PlanarState& believe
 DriveCommand PathFollower::command(const PlanarState& believed, double speed_mps, Micros now) {
   if (!path_) return {};
   if (now - received_ > std::chrono::milliseconds(path_->valid_for_ms)) return {};
-  if (must_look(*path_, believed.position_m))
+  if (must_look(*path_, believed.position_m, is_looking() ? kBeyondEnd_m : kAtEnd_m))
     return look_around(believed, speed_mps).value_or(DriveCommand{});
   if (path_->status != path_t::FOLLOWING && path_->status != path_t::FRONTIER) return {};
+  if (is_looking()) look_.reset();
   if (path_->points.empty()) return {};
   const PlaceOnPath here = nearest_place(*path_, believed.position_m);
   const Eigen::Vector2d target = go_on(*path_, here, kLookAhead_m + kLookAhead_s * speed_mps).position;

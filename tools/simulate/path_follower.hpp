@@ -34,6 +34,7 @@ class PathFollower {
   [[nodiscard]] const std::optional<path_t>& path() const { return path_; }
 
  private:
+  [[nodiscard]] bool is_looking() const;
   [[nodiscard]] bool has_room_to_turn(const Eigen::Vector2d& place_m) const;
 
   RobotSettings robot_;
