@@ -102,6 +102,50 @@ class NibbleWriter {
   std::uint32_t bits_ = 0;     // below 32 between calls
 };
 
+/// Pixels that a look at the next nibbles of the stream settles at once.
+constexpr std::size_t kMostAtOnce = 3;
+
+/// The differences that lie whole in the next three nibbles: nearly always one or more.
+struct ShortDifferences {
+  std::array<std::int16_t, kMostAtOnce> sum{};  ///< of the first, of two, of three; then the last again
+  std::uint8_t count = 0;
+  std::uint8_t bits = 0;  ///< of the stream, for all of them
+};
+
+ShortDifferences short_differences(std::uint32_t nibbles) {
+  ShortDifferences found;
+  std::int32_t sum = 0;
+  for (std::uint32_t length = 4; found.bits + length <= 12;) {
+    const std::uint32_t chain = nibbles >> found.bits & ((1U << length) - 1);
+    const std::uint32_t last = chain >> (length - 4);
+    if ((last & 8) != 0) {
+      length += 4;
+      continue;
+    }
+    if (length > 4 && last == 0) break;  // padded
+    sum += unfold(gather(chain));
+    std::fill(found.sum.begin() + found.count, found.sum.end(), static_cast<std::int16_t>(sum));
+    ++found.count;
+    found.bits = static_cast<std::uint8_t>(found.bits + length);
+    length = 4;
+  }
+  return found;
+}
+
+const std::array<ShortDifferences, 4096>& all_short_differences() {
+  static const std::array<ShortDifferences, 4096> kAll = [] {
+    std::array<ShortDifferences, 4096> all;
+    for (std::uint32_t nibbles = 0; nibbles < all.size(); ++nibbles)
+      all[nibbles] = short_differences(nibbles);
+    return all;
+  }();
+  return kAll;
+}
+
+bool is_pixel(std::int32_t value) {
+  return value >= 1 && value <= 0xFFFF;
+}
+
 class NibbleReader {
  public:
   explicit NibbleReader(std::span<const std::uint8_t> code) : next_(code.data()), end_(next_ + code.size()) {}
@@ -120,6 +164,25 @@ class NibbleReader {
     return gather(static_cast<std::uint32_t>(chain));
   }
 
+  /// Reads the differences that the next three nibbles hold, each to be added to the pixel before. Returns
+  /// how many pixels that makes: none where the first difference is longer, or corrupt, or the code ends, or
+  /// a pixel would be out of range. `previous` becomes the last pixel; kMostAtOnce are written in any case.
+  std::size_t read_short(std::int32_t& previous, std::uint16_t* pixels) {
+    if (bits_ < kLongestChain) refill();
+    const ShortDifferences& next = short_differences_[pending_ & 0xFFF];
+    bool is_fine = next.bits <= bits_;
+    for (std::size_t i = 0; i < kMostAtOnce; ++i) {
+      const std::int32_t value = previous + next.sum[i];
+      is_fine = static_cast<bool>(static_cast<int>(is_fine) & static_cast<int>(is_pixel(value)));
+      pixels[i] = static_cast<std::uint16_t>(value);
+    }
+    if (!is_fine) return 0;
+    pending_ >>= next.bits;
+    bits_ -= next.bits;
+    previous += next.sum.back();
+    return next.count;
+  }
+
   /// Throws unless all that is left is the zeros that fill the last word.
   void finish() const {
     if (next_ != end_ || bits_ >= 32 || pending_ != 0)
@@ -135,6 +198,7 @@ class NibbleReader {
     bits_ += 32;
   }
 
+  const std::array<ShortDifferences, 4096>& short_differences_ = all_short_differences();
   const std::uint8_t* next_;
   const std::uint8_t* end_;
   std::uint64_t pending_ = 0;  // first nibble lowest; zeros above bits_
@@ -162,6 +226,22 @@ void encode_rvl(std::span<const std::uint16_t> pixels, std::vector<std::uint8_t>
   code.resize(static_cast<std::size_t>(writer.finish() - code.data()));
 }
 
+namespace {
+
+/// Pixels that are not 0; `previous` is the last one before them, then the last one of them.
+void decode_run(NibbleReader& reader, std::span<std::uint16_t> run, std::int32_t& previous) {
+  for (std::size_t i = 0; i < run.size();) {
+    const std::size_t count = i + kMostAtOnce <= run.size() ? reader.read_short(previous, run.data() + i) : 0;
+    i += count;
+    if (count > 0) continue;
+    previous += unfold(reader.read());
+    if (!is_pixel(previous)) throw CorruptDepth("depth code leaves the range of a pixel");
+    run[i++] = static_cast<std::uint16_t>(previous);
+  }
+}
+
+}  // namespace
+
 void decode_rvl(std::span<const std::uint8_t> code, std::span<std::uint16_t> pixels) {
   if (code.size() % 4 != 0) throw CorruptDepth("depth code is not made of 32-bit words");
   NibbleReader reader(code);
@@ -175,11 +255,7 @@ void decode_rvl(std::span<const std::uint8_t> code, std::span<std::uint16_t> pix
     const std::size_t others = reader.read();
     if (others > left.size()) throw CorruptDepth("depth code has more pixels than the image");
     if (others == 0 && !left.empty()) throw CorruptDepth("depth code has an empty run");
-    for (std::uint16_t& pixel : left.first(others)) {
-      previous += unfold(reader.read());
-      if (previous < 1 || previous > 0xFFFF) throw CorruptDepth("depth code leaves the range of a pixel");
-      pixel = static_cast<std::uint16_t>(previous);
-    }
+    decode_run(reader, left.first(others), previous);
     left = left.subspan(others);
   }
   reader.finish();

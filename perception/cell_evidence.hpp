@@ -6,7 +6,6 @@
 #include "perception/cell_points.hpp"
 #include "perception/cell_rise.hpp"
 #include "perception/evidence.hpp"
-#include "perception/surfels.hpp"
 
 namespace floornav {
 
@@ -14,7 +13,6 @@ namespace floornav {
 struct CellScratch {
   std::vector<std::int32_t> surfel_points;  ///< a surfel: its points in the cell, 0 between calls
   std::vector<float> heights;
-  std::vector<PlaneSums> sums;
 };
 
 /// What the points on the surfel that decides a cell say together.

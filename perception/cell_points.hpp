@@ -7,9 +7,8 @@
 #include "perception/cell_kernel.hpp"
 #include "perception/cell_sections.hpp"
 #include "perception/cell_window.hpp"
-#include "perception/evidence.hpp"
 #include "perception/roi_cloud.hpp"
-#include "perception/section_planes.hpp"
+#include "perception/section_result.hpp"
 #include "perception/sensor_view.hpp"
 #include "runtime/geometry/parallel.hpp"
 
@@ -34,15 +33,6 @@ struct CellPoints {
     const std::int32_t end = cell_end[static_cast<std::size_t>(cell)];
     return {points.data() + begin, static_cast<std::size_t>(end - begin)};
   }
-};
-
-/// What was found in one section.
-struct SectionResult {
-  bool done = false;
-  std::int64_t outliers = 0;
-  std::vector<SectionPlane> planes;
-  std::vector<Surfel> surfels;    ///< of the planes
-  std::int16_t first_surfel = 0;  ///< the surfel of planes[k] is first_surfel + k
 };
 
 /// Puts the points of done sections into cells. A point on a plane is moved along its ray onto the plane

@@ -7,21 +7,15 @@
 
 #include <Eigen/Core>
 
-#include "perception/cell_evidence.hpp"
-#include "perception/cell_points.hpp"
-#include "perception/cell_sections.hpp"
 #include "perception/compromise.hpp"
 #include "perception/depth_frame.hpp"
 #include "perception/evidence.hpp"
-#include "perception/floor_agreement.hpp"
-#include "perception/missing_floor.hpp"
-#include "perception/outliers.hpp"
+#include "perception/floor_cells.hpp"
 #include "perception/roi_cloud.hpp"
 #include "perception/section_order.hpp"
-#include "perception/section_planes.hpp"
+#include "perception/section_search.hpp"
 #include "perception/sections.hpp"
 #include "perception/settings.hpp"
-#include "perception/sight_lines.hpp"
 #include "perception/thinned_frame.hpp"
 #include "runtime/geometry/parallel.hpp"
 #include "runtime/geometry/robot.hpp"
@@ -32,13 +26,6 @@ namespace floornav {
 /// order of SectionOrder, with an estimate of its work that is the same on every machine. False: the section
 /// is skipped and carries no evidence.
 using Admission = std::function<bool(std::int64_t work_ns)>;
-
-/// What a frame goes through: outliers, planes and cells first for the nearest row of sections, then for the
-/// others.
-enum class PerceptionStage { kRoi, kOutliers, kPlanes, kCells };
-
-/// Told when a stage has ended, by whoever measures.
-using StageEnd = std::function<void(PerceptionStage)>;
 
 /// Told when all of the nearest row's evidence is there: its surfels, and the cells that lie in it whole.
 /// What is added later comes behind it.
@@ -67,73 +54,33 @@ class FloorPerception {
       const NearRowEnd& end_near_row = [](const FloorEvidence&) {});
 
  private:
-  struct SectionMemory {
-    Eigen::Vector3d floor_normal = Eigen::Vector3d::UnitZ();  ///< last known, local world frame
-    std::int16_t age = 0;                                     ///< frames since it was last done
-  };
-  /// Scratch memory of one worker.
-  struct Worker {
-    OutlierRemover outliers;
-    SectionScratch sections;
-    CellScratch cells;
-  };
+  /// One frame on its way.
+  struct Passage;
 
-  void begin(const DepthFrame& frame, const SensorView& view, Parallel& parallel);
+  void begin(const Passage& passage);
+  void order_sections(const SensorView& view);
+  void search(const Passage& passage);
+  void finish_near_row(const Passage& passage);
+  void collect(int first_section, int end_section, const Passage& passage);
   [[nodiscard]] std::int64_t work_of(int section) const;
-  void search_near_row(const DepthFrame& frame, const SensorView& view, Parallel& parallel,
-                       const Admission& admit, const StageEnd& end_stage);
-  void search_others(const DepthFrame& frame, const SensorView& view, Parallel& parallel,
-                     const Admission& admit, const StageEnd& end_stage);
-  void search_turn(const DepthFrame& frame, const SensorView& view, Parallel& parallel,
-                   const StageEnd& end_stage);
-  void remove_turn_outliers(const Pinhole& camera, Parallel& parallel);
-  void remove_section_outliers(int section, const Pinhole& camera, OutlierRemover& remover,
-                               Parallel& parallel);
-  void find_section_planes(int section, std::int64_t utime_us, const SensorView& view,
-                           SectionScratch& scratch);
-  void collect(int first_section, int end_section, const SensorView& view, Parallel& parallel);
-  void agree_on_floor(int first_section, int end_section);
-  void collect_surfels(int first_section, int end_section, const SensorView& view, Parallel& parallel);
-  void collect_cells(int first_section, int end_section, const SensorView& view, Parallel& parallel);
-  void find_seen_cells(bool is_near);
-  void summarize_cells(int end_section, const SensorView& view, Parallel& parallel);
-  void decide_cell(std::size_t seen, CellScratch& scratch);
-  void summarize_seen_cell(std::size_t seen, const SensorView& view, float alike_px, CellScratch& scratch,
-                           CellEvidence& cell) const;
-  void remember(const SensorView& view);
+  [[nodiscard]] std::int64_t work_of_near_row(const DepthFrame& frame) const;
+  void count_ages();
   void report_sections(bool near_row_only);
 
   PerceptionSettings settings_;
-  RobotSettings robot_;
   Compromise compromise_;
   SectionGrid grid_;
   SectionOrder order_;
   ThinnedFrame thinned_;
   RoiClipper clipper_;
-  SectionPlaneFinder plane_finder_;
-  CellSorter cell_sorter_;
-  SightLineTracer tracer_;
-  MissingFloorFinder missing_floor_finder_;
-  std::vector<SectionMemory> memory_;
+  SectionSearch search_;
+  FloorCells cells_;
+  std::vector<std::int16_t> ages_;  ///< a section: frames since it was last done
 
   // Of the frame in hand; kept so that a frame allocates nothing.
   FloorEvidence evidence_;
-  std::vector<std::int16_t> ages_;  ///< a section
-  std::vector<int> turn_;           ///< sections that are searched together
   RoiCloud cloud_;
-  std::vector<std::uint8_t> keep_;
-  std::vector<std::int16_t> label_;
-  std::vector<SectionResult> results_;
-  FloorAgreement floor_agreement_;
-  CellWindow window_;
-  CellSections cell_sections_;
-  CellPoints cell_points_;
-  std::vector<float> lowest_ray_z_m_;        ///< a cell
-  std::vector<std::uint8_t> missing_floor_;  ///< a cell
-  std::vector<std::int32_t> seen_cells_;
-  std::vector<DecidingSurfel> deciders_;  ///< a seen cell
-  std::vector<CellRise> rises_;           ///< a cell of the window
-  std::vector<Worker> workers_;
+  std::vector<int> turns_;  ///< sections in the order in which they are searched
 };
 
 }  // namespace floornav

@@ -91,11 +91,11 @@ void MissingFloorFinder::find_expected_floors(const SensorView& view,
   const Pose T_sensor_body = view.T_body_sensor.inverse();
   body_floor_ =
       plane_at(T_sensor_body.translation().cast<float>(), T_sensor_body.linear().col(2).cast<float>());
-  expected_floor_.assign(sections.size(), body_floor_);
+  expected_floor_.assign(static_cast<std::size_t>(grid_.count()), body_floor_);
   const auto columns = static_cast<std::size_t>(grid_.y_res());
-  for (std::size_t s = 0; s < sections.size(); ++s) {
+  for (std::size_t s = 0; s < expected_floor_.size(); ++s) {
     if (s >= columns) expected_floor_[s] = expected_floor_[s - columns];
-    if (!sections[s].planes.empty() && sections[s].planes.front().dominant)
+    if (s < sections.size() && !sections[s].planes.empty() && sections[s].planes.front().dominant)
       expected_floor_[s] = sections[s].planes.front().plane;
   }
 }

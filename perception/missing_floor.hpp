@@ -26,7 +26,7 @@ class MissingFloorFinder {
   MissingFloorFinder(const RoiSettings& roi, const SectionGrid& grid) : roi_(roi), grid_(grid) {}
 
   /// Writes 1 to `missing` (a cell of the window) for such cells among those for which `is_asked` holds; the
-  /// others stay.
+  /// others stay. `sections`: those that are known so far, from the nearest on.
   void find(const MeasuredImage& image, const SensorView& view, std::span<const SectionResult> sections,
             const CellWindow& window, const CellSections& cell_sections, const CellPoints& points,
             const std::function<bool(std::int32_t)>& is_asked, Parallel& parallel,

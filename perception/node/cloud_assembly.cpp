@@ -43,7 +43,10 @@ DepthFrame unpack_frame(const CloudStrips& strips, FramePixels& memory) {
   memory.uncertainty.clear();
   for (const depth_cloud_t& strip : strips) {
     unpack_pixels(strip, memory.strip);
-    memory.pixels.insert(memory.pixels.end(), memory.strip.begin(), memory.strip.end());
+    if (memory.pixels.empty())
+      std::swap(memory.pixels, memory.strip);
+    else
+      memory.pixels.insert(memory.pixels.end(), memory.strip.begin(), memory.strip.end());
     memory.uncertainty.insert(memory.uncertainty.end(), strip.uncertainty.begin(), strip.uncertainty.end());
   }
   const depth_cloud_t& cloud = strips.front();

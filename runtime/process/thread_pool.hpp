@@ -13,8 +13,8 @@
 
 namespace floornav {
 
-/// A fixed number of workers; the caller of run() is worker 0. run() allocates nothing. One run at a time:
-/// neither two threads nor a piece may call run() while another one is going on.
+/// A fixed number of workers; the thread that calls run() from outside is worker 0, and only one may at a
+/// time. run() allocates nothing.
 class ThreadPool final : public Parallel {
  public:
   /// 1 worker: no thread is started. Throws std::invalid_argument for less than 1.
@@ -30,21 +30,31 @@ class ThreadPool final : public Parallel {
   void run(int count, const std::function<void(int index, int worker)>& piece) override;
 
  private:
+  /// One call of run(), on its caller's stack.
+  struct Run {
+    const std::function<void(int, int)>& piece;
+    int count = 0;
+    std::atomic<int> next{0};     ///< next index that nobody has taken
+    std::atomic<int> helpers{0};  ///< workers that take part besides the caller; changes under mutex_
+    std::exception_ptr exception{};
+    int exception_index = 0;
+
+    [[nodiscard]] bool has_more() const { return next.load(std::memory_order_relaxed) < count; }
+  };
+
   void serve(int worker);
-  void work(int worker);
-  void keep_exception(int index);
+  Run* newest_with_more();
+  void work(Run& run, int worker);
+  void keep_exception(Run& run, int index);
+  void wait_for_helpers(Run& run);
+  void wait_for_news(std::unique_lock<std::mutex>& lock);
 
   std::mutex mutex_;
   std::condition_variable start_;
   std::condition_variable done_;
   bool stopping_ = false;
-  std::uint64_t runs_ = 0;  ///< counts calls of run(), so that a thread takes part in each at most once
-  int active_ = 0;          ///< threads that are working on the current run
-  const std::function<void(int, int)>* piece_ = nullptr;  ///< null between runs
-  int count_ = 0;
-  std::atomic<int> next_{0};  ///< next index that nobody has taken
-  std::exception_ptr exception_;
-  int exception_index_ = 0;
+  std::vector<Run*> runs_;              ///< going on, the newest last
+  std::atomic<std::uint64_t> news_{0};  ///< counts calls of run()
   std::vector<std::thread> threads_;
 };
 

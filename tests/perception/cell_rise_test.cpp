@@ -98,9 +98,14 @@ TEST_P(FloorNoise, IsAlikeOverTheWindowThatMadeIt) {
   std::vector<SectionResult> sections(1);
   sections[0].planes.push_back({{0.0F, 0.0F, 0.5F}, {}, true});
   const std::vector<std::int16_t> label(cloud.pixel.size(), 0);
-  EXPECT_NEAR(alike_length_px(cloud, label, sections), window, 0.2 * window);
+  NoiseCorrelation noise;
+  Serial serial;
+  noise.measure(0, 1, cloud, label, sections, serial);
+  EXPECT_NEAR(noise.alike_px(), window, 0.2 * window);
+  noise.clear();
   sections[0].planes.front().dominant = false;
-  EXPECT_EQ(alike_length_px(cloud, label, sections), 1.0F) << "no floor, nothing known";
+  noise.measure(0, 1, cloud, label, sections, serial);
+  EXPECT_EQ(noise.alike_px(), 1.0F) << "no floor, nothing known";
 }
 
 INSTANTIATE_TEST_SUITE_P(Windows, FloorNoise, ::testing::Values(1, 5, 9, 15));

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "runtime/process/thread_pool.hpp"
 #include "tests/perception/rendered_scene.hpp"
 
 namespace floornav {
@@ -21,10 +22,16 @@ class Shuffled final : public Parallel {
   explicit Shuffled(int workers) : workers_(workers) {}
   [[nodiscard]] int workers() const override { return workers_; }
   void run(int count, const std::function<void(int, int)>& piece) override {
+    static thread_local int outer_worker = -1;
+    const auto run_each = [&](int first, int step, int worker) {
+      for (int index = count - 1 - first; index >= 0; index -= step) piece(index, worker);
+    };
+    if (outer_worker >= 0) return run_each(0, 1, outer_worker);
     std::vector<std::jthread> threads;
     for (int worker = 0; worker < workers_; ++worker)
       threads.emplace_back([&, worker] {
-        for (int index = count - 1 - worker; index >= 0; index -= workers_) piece(index, worker);
+        outer_worker = worker;
+        run_each(worker, workers_, worker);
       });
   }
 
@@ -236,12 +243,28 @@ TEST(FloorPerception, AnyNumberOfWorkersGivesTheSameBits) {
   scene.missing_share = 0.05;
   add_box(scene, 1.2, 0.4, 0.3, 0.05);
   add_box(scene, 2.2, -0.3, 0.3, 0.40);
-  const FloorEvidence alone = perceive(scene);
   const DepthFrame frame = scene.render();
-  for (const int workers : {1, 2, 5}) {
-    Shuffled parallel(workers);
+  const auto perceived = [&](Parallel& parallel) {
     FloorPerception perception({}, {});
-    expect_same(alone, perception.process(frame, scene.T_world_body, parallel, admit_all));
+    std::pair<FloorEvidence, FloorEvidence> told;
+    told.second = perception.process(
+        frame, scene.T_world_body, parallel, admit_all, [](PerceptionStage) {},
+        [&](const FloorEvidence& evidence) { told.first = evidence; });
+    return told;
+  };
+  Serial serial;
+  const auto [near_row, whole] = perceived(serial);
+  ASSERT_FALSE(near_row.cells.empty());
+  const auto expect_no_difference = [&](Parallel& parallel) {
+    const auto told = perceived(parallel);
+    expect_same(near_row, told.first);
+    expect_same(whole, told.second);
+  };
+  for (const int workers : {1, 2, 5}) {
+    Shuffled shuffled(workers);
+    expect_no_difference(shuffled);
+    ThreadPool pool(workers);
+    expect_no_difference(pool);
   }
 }
 

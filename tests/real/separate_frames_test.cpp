@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/real/floor_oracle.hpp"
+#include "tests/real/near_floor.hpp"
 #include "tests/real/outputs.hpp"
 #include "tests/real_data.hpp"
 #include "tests/tools/run_program.hpp"
@@ -34,6 +35,17 @@ Eigen::Isometry3d camera_pose(double height_m, double pitch_deg, double roll_deg
 OraclePlane floor_near(const std::vector<Eigen::Vector3d>& points, const Eigen::Isometry3d& T_body_camera) {
   return fit_floor(points,
                    {T_body_camera.linear().transpose().col(2), -T_body_camera.translation().z(), 10, 0.15});
+}
+
+/// Frames without poses are placed so far apart.
+constexpr double kApart_m = 10;
+
+std::optional<double> floor_error(std::vector<Row> surfels, double frame, std::vector<Eigen::Vector3d> points,
+                                  const Eigen::Isometry3d& T_body_camera) {
+  for (auto& point : points) point = T_body_camera * point;
+  for (Row& s : surfels)
+    for (const char* axis : {"x", "y"}) s[axis] -= kApart_m * std::round(s[axis] / kApart_m);
+  return near_floor_error(surfels, frame, {0, 0}, points);
 }
 
 /// Cells of the map by what the raw pixels of its only frame say of them.
@@ -112,9 +124,12 @@ TEST_F(PepperFloor, GivesTheCamerasHeightInEveryFrame) {
   std::vector<int> frames;
   for (int frame = 0; frame < 200; frame += std::getenv("FLOORNAV_ALL_FRAMES") != nullptr ? 1 : 10)
     frames.push_back(frame);
-  const auto rows = read_csv(replay(frames) / "frames.csv");
+  const auto out = replay(frames);
+  const auto rows = read_csv(out / "frames.csv");
+  const auto surfels = read_csv(out / "surfels.csv");
   ASSERT_EQ(rows.size(), frames.size());
   double worst_m = 0;
+  FrameToFrame steadiness;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ASSERT_GT(rows[i].at("floor_points"), 10000) << "frame " << frames[i];
     EXPECT_GT(rows[i].at("camera_height"), 0.627 - 0.02);
@@ -123,10 +138,12 @@ TEST_F(PepperFloor, GivesTheCamerasHeightInEveryFrame) {
     EXPECT_NEAR(rows[i].at("camera_roll_deg"), -11, 4.5);
     worst_m = std::max(worst_m, std::abs(rows[i].at("camera_height") +
                                          floor_near(points(frames[i]), T_body_camera_).distance_m));
+    steadiness.add(floor_error(surfels, rows[i].at("frame"), points(frames[i]), T_body_camera_));
   }
   std::printf("pepper: floor in %zu of %zu frames; camera at most %.1f mm off a plane fitted to the pixels\n",
               rows.size(), frames.size(), 1000 * worst_m);
   EXPECT_LT(worst_m, 0.01);
+  steadiness.expect_steady("pepper");
 }
 
 class PepperObstacles : public PepperFloor, public testing::WithParamInterface<int> {};
@@ -179,6 +196,21 @@ std::ostream& operator<<(std::ostream& out, const PclScene& scene) {
   return out << scene.name;
 }
 
+void replay_cloud(const std::filesystem::path& cloud, const PclScene& scene,
+                  const std::filesystem::path& folder) {
+  expect_run({"floornav-import", "pcd", cloud, "-o", folder / "log.lcm", "--height",
+              std::to_string(scene.height_m), "--pitch", std::to_string(scene.pitch_deg), "--roll",
+              std::to_string(scene.roll_deg)});
+  expect_run({"floornav-replay", folder / "log.lcm", "--out", folder / "out"});
+}
+
+std::vector<Eigen::Vector3d> points_of_cloud(const std::filesystem::path& cloud) {
+  std::vector<Eigen::Vector3d> points;
+  for (const auto& p : read_pcd(cloud).points)
+    if (p.allFinite()) points.push_back(p.cast<double>());
+  return points;
+}
+
 class PclCloud : public testing::TestWithParam<PclScene> {};
 
 TEST_P(PclCloud, HasAFreeFloorAndBlockedThingsOnIt) {
@@ -186,14 +218,9 @@ TEST_P(PclCloud, HasAFreeFloorAndBlockedThingsOnIt) {
   const auto cloud = real_data("pcl_clouds") / scene.cloud;
   if (!std::filesystem::exists(cloud)) GTEST_SKIP() << "no recording at " << cloud;
   const TemporaryFolder folder;
-  expect_run({"floornav-import", "pcd", cloud, "-o", folder / "log.lcm", "--height",
-              std::to_string(scene.height_m), "--pitch", std::to_string(scene.pitch_deg), "--roll",
-              std::to_string(scene.roll_deg)});
-  expect_run({"floornav-replay", folder / "log.lcm", "--out", folder / "out"});
+  replay_cloud(cloud, scene, folder.path());
   const auto T_body_camera = camera_pose(scene.height_m, scene.pitch_deg, scene.roll_deg);
-  std::vector<Eigen::Vector3d> points;
-  for (const auto& p : read_pcd(cloud).points)
-    if (p.allFinite()) points.push_back(p.cast<double>());
+  const auto points = points_of_cloud(cloud);
   const OraclePlane plane = floor_near(points, T_body_camera);
   const Row frame = read_csv(folder / "out/frames.csv").at(0);
   EXPECT_NEAR(frame.at("camera_height"), -plane.distance_m, scene.height_tolerance_m);
@@ -215,12 +242,29 @@ TEST_P(PclCloud, HasAFreeFloorAndBlockedThingsOnIt) {
   EXPECT_GE(free, 0.90);
 }
 
+constexpr PclScene kDeskSide{
+    "desk_side", "grabber_sequences/pcd/frame_20121214T142256.068683.pcd", 0.71, 45.6, 6, 2.0, 0.005, 2};
+
 INSTANTIATE_TEST_SUITE_P(
     , PclCloud,
     testing::Values(PclScene{"carpet", "milk_cartoon_all_small_clorox.pcd", 0.47, 34.8, 0, 2.0, 0.005, 3},
-                    PclScene{"corridor", "five_people.pcd", 1.29, 4.7, 0, 3.5, 0.02, 3},
-                    PclScene{"desk_side", "grabber_sequences/pcd/frame_20121214T142256.068683.pcd", 0.71,
-                             45.6, 6, 2.0, 0.005, 2}));
+                    PclScene{"corridor", "five_people.pcd", 1.29, 4.7, 0, 3.5, 0.02, 3}, kDeskSide));
+
+/// The frames that were recorded beside the desk; the other clouds are of one frame each.
+TEST(PclSequence, TheFloorStaysWhereItIsFrameToFrame) {
+  const auto sequence = real_data("pcl_clouds") / "grabber_sequences/pcd";
+  if (!std::filesystem::exists(sequence)) GTEST_SKIP() << "no recording at " << sequence;
+  const auto T_body_camera = camera_pose(kDeskSide.height_m, kDeskSide.pitch_deg, kDeskSide.roll_deg);
+  FrameToFrame steadiness;
+  for (const char* time : {"142255.814212", "142256.068683", "142256.332395"}) {
+    const auto cloud = sequence / (std::string("frame_20121214T") + time + ".pcd");
+    const TemporaryFolder folder;
+    replay_cloud(cloud, kDeskSide, folder.path());
+    const auto surfels = read_csv(folder / "out/surfels.csv");
+    steadiness.add(floor_error(surfels, surfels.at(0).at("frame"), points_of_cloud(cloud), T_body_camera));
+  }
+  steadiness.expect_steady("desk_side");
+}
 
 }  // namespace
 }  // namespace floornav

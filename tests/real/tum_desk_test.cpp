@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/real/floor_oracle.hpp"
+#include "tests/real/near_floor.hpp"
 #include "tests/real/outputs.hpp"
 #include "tests/real_data.hpp"
 #include "tests/tools/run_program.hpp"
@@ -34,18 +35,21 @@ class TumRecording {
     }
   }
 
-  /// What the pixels of a frame hit, in the motion capture's world, by the pose nearest in time (within 5
-  /// ms).
-  [[nodiscard]] std::vector<Eigen::Vector3d> points_at(double utime) const {
+  /// In the motion capture's world, by its pose nearest in time (within 5 ms).
+  [[nodiscard]] const Eigen::Isometry3d& camera_at(double utime) const {
     const double t = utime * 1e-6;
-    char name[64];
-    std::snprintf(name, sizeof name, "depth/%.6f.png", t);
-    const cv::Mat image = cv::imread((folder_ / name).string(), cv::IMREAD_UNCHANGED);
-    EXPECT_FALSE(image.empty()) << name;
     const auto after = poses_.lower_bound(t);
     const auto before = std::prev(after);
-    const Eigen::Isometry3d& T_world_camera =
-        after->first - t < t - before->first ? after->second : before->second;
+    return after->first - t < t - before->first ? after->second : before->second;
+  }
+
+  /// What the pixels of a frame hit, in the motion capture's world.
+  [[nodiscard]] std::vector<Eigen::Vector3d> points_at(double utime) const {
+    char name[64];
+    std::snprintf(name, sizeof name, "depth/%.6f.png", utime * 1e-6);
+    const cv::Mat image = cv::imread((folder_ / name).string(), cv::IMREAD_UNCHANGED);
+    EXPECT_FALSE(image.empty()) << name;
+    const Eigen::Isometry3d& T_world_camera = camera_at(utime);
     auto points = points_of(image, 5000, 517.3, 516.5, 318.6, 255.3);
     for (auto& point : points) point = T_world_camera * point;
     return points;
@@ -133,6 +137,7 @@ TEST_F(TumDesk, FloorIsFoundInEveryFrameThatShowsEnoughOfIt) {
   Tally against_plane;
   Tally against_capture;
   Tally plane_against_capture;
+  FrameToFrame steadiness;
   for (const Row& frame : frames) {
     const auto points = recording.points_at(frame.at("utime"));
     const auto near_floor = std::ranges::count_if(
@@ -151,11 +156,14 @@ TEST_F(TumDesk, FloorIsFoundInEveryFrameThatShowsEnoughOfIt) {
         surfels, frame.at("frame"), [&](const Row& s) { return s.at("z") - kFloor_m; },
         [&](const Row& s) { return angle_between_deg(normal(s), Eigen::Vector3d::UnitZ()); }));
     const double tilt = angle_between_deg(plane.normal, Eigen::Vector3d::UnitZ());
+    const Eigen::Vector2d robot = recording.camera_at(frame.at("utime")).translation().head<2>();
+    steadiness.add(near_floor_error(surfels, frame.at("frame"), robot, points));
     plane_against_capture.add({tilt <= kLevelTolerance_deg, 0, tilt});
   }
   against_plane.print("floor surfel against a plane fitted to the frame's pixels");
   against_capture.print("floor surfel against the motion capture");
   plane_against_capture.print("that plane against the motion capture's level");
+  steadiness.expect_steady("tum");
   EXPECT_GT(against_plane.frames, 100);
   EXPECT_EQ(against_plane.found, against_plane.frames);
   EXPECT_GE(against_capture.found, plane_against_capture.found);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -63,6 +64,49 @@ TEST_P(ThreadPoolOf, ThrowsTheLowestPiecesExceptionAfterAllHaveRun) {
   int after = 0;
   pool.run(1, [&](int, int) { ++after; });
   EXPECT_EQ(after, 1);
+}
+
+TEST_P(ThreadPoolOf, APieceMayRunPiecesOfItsOwn) {
+  ThreadPool pool(GetParam());
+  std::vector<long> sums(static_cast<std::size_t>(GetParam()), 0);  // not atomic: see above
+  for (int round = 0; round < 50; ++round)
+    pool.run(7, [&](int outer, int) {
+      pool.run(outer * 5, [&](int inner, int worker) {
+        pool.run(2, [&](int, int) {});
+        sums.at(static_cast<std::size_t>(worker)) += inner;
+      });
+    });
+  long expected = 0;
+  for (long outer = 0; outer < 7; ++outer) expected += 5 * outer * (5 * outer - 1) / 2;
+  EXPECT_EQ(std::accumulate(sums.begin(), sums.end(), 0L), 50 * expected);
+}
+
+TEST_P(ThreadPoolOf, AnInnerExceptionIsThrownWhereItsPiecesWereRun) {
+  ThreadPool pool(GetParam());
+  std::atomic<int> caught = 0;
+  pool.run(9, [&](int, int) {
+    try {
+      pool.run(4, [](int inner, int) {
+        if (inner == 2) throw std::runtime_error("inner");
+      });
+    } catch (const std::runtime_error&) {
+      ++caught;
+    }
+  });
+  EXPECT_EQ(caught, 9);
+}
+
+/// The one large piece cuts itself up: with two workers or more, all take part in it.
+TEST(ThreadPool, IdleWorkersHelpWithAnInnerRun) {
+  ThreadPool pool(3);
+  std::atomic<int> arrived = 0;
+  pool.run(1, [&](int, int) {
+    pool.run(3, [&](int, int) {
+      ++arrived;
+      while (arrived < 3) std::this_thread::yield();  // none ends before all three have begun
+    });
+  });
+  EXPECT_EQ(arrived, 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Workers, ThreadPoolOf, testing::Values(1, 2, 3, 8));
