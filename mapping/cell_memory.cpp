@@ -83,12 +83,17 @@ void CellMemory::place_below(const Sighting& sighting, Seen& seen) {
   seen.lower = true;
 }
 
-Level* CellMemory::level_of(const Sighting& sighting, const FusionLimits& limits) {
+/// What stands out of a plane in the same view is not part of it, however uncertain the body's height is.
+Level* CellMemory::level_of(const Sighting& sighting, const FusionLimits& limits, Seen seen) {
   const auto part_of = [&sighting](const Level& level) {
     return level.exists() && level.column && sighting.column && sighting.z_m <= level.z_m;
   };
-  const bool fits_upper = fits(upper_, sighting, limits);
-  const bool fits_lower = fits(lower_, sighting, limits);
+  const auto holds = [&](const Level& level, bool is_seen) {
+    const bool stands_out = is_seen && sighting.column && !level.column;
+    return !stands_out && fits(level, sighting, limits);
+  };
+  const bool fits_upper = holds(upper_, seen.upper);
+  const bool fits_lower = holds(lower_, seen.lower);
   const bool nearer_upper = std::abs(upper_.z_m - sighting.z_m) < std::abs(lower_.z_m - sighting.z_m);
   if (fits_upper ? !fits_lower || nearer_upper : !fits_lower && part_of(upper_)) return &upper_;
   const bool grows_lower = lower_.exists() && lower_.column && sighting.column && !upper_.exists();
@@ -96,7 +101,7 @@ Level* CellMemory::level_of(const Sighting& sighting, const FusionLimits& limits
 }
 
 void CellMemory::place(const Sighting& sighting, const FusionLimits& limits, Seen& seen) {
-  if (Level* const level = level_of(sighting, limits)) {
+  if (Level* const level = level_of(sighting, limits, seen)) {
     support(*level, sighting, limits);
     (level == &upper_ ? seen.upper : seen.lower) = true;
   } else if (!lower_.exists() || sighting.z_m < lower_.z_m) {

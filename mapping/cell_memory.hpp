@@ -90,7 +90,7 @@ class CellMemory {
     bool lower = false;
     bool upper = false;
   };
-  [[nodiscard]] Level* level_of(const Sighting& sighting, const FusionLimits& limits);
+  [[nodiscard]] Level* level_of(const Sighting& sighting, const FusionLimits& limits, Seen seen);
   void place(const Sighting& sighting, const FusionLimits& limits, Seen& seen);
   void place_above(const Sighting& sighting, Seen& seen);
   void place_below(const Sighting& sighting, Seen& seen);

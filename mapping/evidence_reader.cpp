@@ -10,6 +10,12 @@ constexpr float kUpright = 50.0F;       // rise per metre of what has no slope: 
 constexpr float kSteepestPlane = 1.0F;  // rise per metre: 45 degrees
 constexpr std::int32_t kPointsThatStandOut = Level::kTrusted;  // a robust top rests on several points
 
+/// Variance of one point, by that of the mean. Of many points the mean's is what they have in common.
+float point_var_m2(const CellEvidence& cell) {
+  constexpr std::int32_t kMany = 20;
+  return cell.var_z_m2 * static_cast<float>(std::min(cell.points, kMany));
+}
+
 }  // namespace
 
 bool EvidenceReader::is_valid(const CellEvidence& cell, const FloorEvidence& evidence) {
@@ -39,8 +45,7 @@ Sighting EvidenceReader::plane_of(const CellEvidence& cell, const Surfel& surfel
 
 bool EvidenceReader::stands_out(const CellEvidence& cell, const Surface& plane, double pitch_m) const {
   const float rise_m = std::hypot(plane.gradient_x, plane.gradient_y) * static_cast<float>(pitch_m);
-  const float point_sigma_m = std::sqrt(cell.var_z_m2 * static_cast<float>(cell.points));
-  return cell.top_z_m - cell.mean_z_m > max_step_m_ + rise_m + 3.0F * point_sigma_m;
+  return cell.top_z_m - cell.mean_z_m > max_step_m_ + rise_m + 3.0F * std::sqrt(point_var_m2(cell));
 }
 
 void EvidenceReader::read(const CellEvidence& cell, const FloorEvidence& evidence,
@@ -48,7 +53,7 @@ void EvidenceReader::read(const CellEvidence& cell, const FloorEvidence& evidenc
   if (cell.points == 0) return;
   Sighting column;
   column.z_m = std::max(cell.top_z_m, cell.mean_z_m);
-  column.var_m2 = cell.var_z_m2 * static_cast<float>(cell.points) + view_var_m2_;
+  column.var_m2 = point_var_m2(cell) + view_var_m2_;
   column.gradient_x = kUpright;
   column.column = true;
   column.points = cell.points;

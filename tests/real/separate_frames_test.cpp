@@ -54,10 +54,10 @@ struct RawCells {
   std::set<std::pair<int, int>> floor;      ///< many points on the floor, hardly any above
 };
 
-/// Heights are those above the plane fitted to the same pixels, places those of the mounting.
+/// Heights are those above the plane fitted to the same pixels, places those of the mounting; an obstacle
+/// stands at least `least_m` above it.
 RawCells raw_cells(const std::vector<Eigen::Vector3d>& points, const Eigen::Isometry3d& T_body_camera,
-                   const PublishedMap& map, double farthest_m) {
-  constexpr double kObstacle_m = 0.10;
+                   const PublishedMap& map, double farthest_m, double least_m = 0.10) {
   constexpr double kRobot_m = 0.65;
   constexpr double kFloor_m = 0.015;
   constexpr int kSurePoints = 40;
@@ -68,7 +68,7 @@ RawCells raw_cells(const std::vector<Eigen::Vector3d>& points, const Eigen::Isom
     const Eigen::Vector3d p = T_body_camera * point;
     if (p.x() < 0 || p.head<2>().norm() > farthest_m || std::abs(p.y()) > 1.9) continue;
     const double height = plane.above(point);
-    if (height > kObstacle_m && height < kRobot_m) ++above[map.cell_of(p.x(), p.y())];
+    if (height > least_m && height < kRobot_m) ++above[map.cell_of(p.x(), p.y())];
     if (std::abs(height) < kFloor_m) ++on[map.cell_of(p.x(), p.y())];
   }
   RawCells cells;
@@ -82,6 +82,41 @@ RawCells raw_cells(const std::vector<Eigen::Vector3d>& points, const Eigen::Isom
 double share_of(const std::set<std::pair<int, int>>& cells, Cell state, const PublishedMap& map) {
   const auto count = std::ranges::count_if(cells, [&](const auto& cell) { return map.at(cell) == state; });
   return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(cells.size(), 1));
+}
+
+using CellSet = std::set<std::pair<int, int>>;
+
+/// Connected groups of at least two cells, neighbours by corner too.
+std::vector<CellSet> things_in(CellSet cells) {
+  std::vector<CellSet> things;
+  while (!cells.empty()) {
+    CellSet thing;
+    std::vector<std::pair<int, int>> open{*cells.begin()};
+    cells.erase(cells.begin());
+    while (!open.empty()) {
+      const auto [x, y] = open.back();
+      open.pop_back();
+      thing.insert({x, y});
+      for (int dx = -1; dx <= 1; ++dx)
+        for (int dy = -1; dy <= 1; ++dy)
+          if (cells.erase({x + dx, y + dy}) > 0) open.emplace_back(x + dx, y + dy);
+    }
+    if (thing.size() > 1) things.push_back(thing);
+  }
+  return things;
+}
+
+/// Whatever stands 3 cm or more above the floor is in the map: blocked in most of its cells.
+void expect_low_things_kept(const std::vector<Eigen::Vector3d>& points,
+                            const Eigen::Isometry3d& T_body_camera, const PublishedMap& map,
+                            double farthest_m) {
+  constexpr double kLow_m = 0.03;
+  const auto things = things_in(raw_cells(points, T_body_camera, map, farthest_m, kLow_m).obstacles);
+  EXPECT_FALSE(things.empty());
+  for (const CellSet& thing : things)
+    EXPECT_GT(share_of(thing, Cell::kBlocked, map), 0.5)
+        << "of " << thing.size() << " cells at " << thing.begin()->first << ", " << thing.begin()->second;
+  std::printf("%zu things of 3 cm and more, each mostly blocked\n", things.size());
 }
 
 void expect_run(const std::vector<std::string>& words) {
@@ -156,6 +191,7 @@ TEST_P(PepperObstacles, AreBlockedAndTheFloorBesideThemIsFree) {
   const double free = share_of(cells.floor, Cell::kFree, map);
   std::printf("pepper frame %d: %zu cells of obstacles %.1f %% blocked, %zu cells of floor %.1f %% free\n",
               GetParam(), cells.obstacles.size(), 100 * blocked, cells.floor.size(), 100 * free);
+  expect_low_things_kept(points(GetParam()), T_body_camera_, map, 2.5);
   EXPECT_GT(cells.obstacles.size(), 10U);
   EXPECT_GE(blocked, 0.90);  // wanted: 0.95; of the fewest cells, 11, one is missed
   EXPECT_GE(free, 0.90);
@@ -163,33 +199,13 @@ TEST_P(PepperObstacles, AreBlockedAndTheFloorBesideThemIsFree) {
 
 INSTANTIATE_TEST_SUITE_P(Frames, PepperObstacles, testing::Values(0, 60, 119, 180));
 
-/// Connected groups of cells, neighbours by corner too.
-int groups_in(std::set<std::pair<int, int>> cells, std::size_t least) {
-  int groups = 0;
-  while (!cells.empty()) {
-    std::vector<std::pair<int, int>> open{*cells.begin()};
-    cells.erase(cells.begin());
-    std::size_t size = 0;
-    while (!open.empty()) {
-      const auto [x, y] = open.back();
-      open.pop_back();
-      ++size;
-      for (int dx = -1; dx <= 1; ++dx)
-        for (int dy = -1; dy <= 1; ++dy)
-          if (cells.erase({x + dx, y + dy}) > 0) open.emplace_back(x + dx, y + dy);
-    }
-    groups += size >= least ? 1 : 0;
-  }
-  return groups;
-}
-
 struct PclScene {
   const char* name;
   const char* cloud;  ///< below pcl_clouds
   double height_m, pitch_deg, roll_deg;
   double farthest_m;          ///< to which the pixels decide what a cell is
   double height_tolerance_m;  ///< wider where the floor begins farther away
-  int objects;
+  std::size_t objects;
 };
 
 std::ostream& operator<<(std::ostream& out, const PclScene& scene) {
@@ -232,12 +248,13 @@ TEST_P(PclCloud, HasAFreeFloorAndBlockedThingsOnIt) {
   const double blocked = share_of(cells.obstacles, Cell::kBlocked, map);
   const double free = share_of(cells.floor, Cell::kFree, map);
   std::printf(
-      "%s: camera %.3f m up (%.3f m by a plane fitted to the pixels); %zu cells of %d things %.1f %% "
+      "%s: camera %.3f m up (%.3f m by a plane fitted to the pixels); %zu cells of %zu things %.1f %% "
       "blocked, "
       "%zu cells of floor %.1f %% free\n",
       scene.name, frame.at("camera_height"), -plane.distance_m, cells.obstacles.size(),
-      groups_in(cells.obstacles, 2), 100 * blocked, cells.floor.size(), 100 * free);
-  EXPECT_GE(groups_in(cells.obstacles, 2), scene.objects);
+      things_in(cells.obstacles).size(), 100 * blocked, cells.floor.size(), 100 * free);
+  EXPECT_GE(things_in(cells.obstacles).size(), scene.objects);
+  expect_low_things_kept(points, T_body_camera, map, scene.farthest_m);
   EXPECT_GE(blocked, 0.95);
   EXPECT_GE(free, 0.90);
 }
