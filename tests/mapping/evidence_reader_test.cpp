@@ -18,6 +18,7 @@ FloorEvidence floor_with(float top_m, std::int32_t points, float point_sigma_m) 
   FloorEvidence evidence;
   evidence.lattice.pitch_m = 0.05;
   Surfel floor;
+  floor.centroid_m.setZero();
   floor.normal = Eigen::Vector3f::UnitZ();
   floor.dominant = true;
   evidence.surfels.push_back(floor);
