@@ -13,7 +13,7 @@ constexpr double kRoom = 0.8;
 constexpr int kLeastHypotheses = 10;
 
 /// Of one point, level by level, as measured with `floornav-bench perception --level`.
-constexpr std::array<double, Compromise::kLevels> kWork_ns{100.0, 95.0, 90.0, 85.0, 25.0, 7.0};
+constexpr std::array<double, Compromise::kLevels> kWork_ns{111.0, 106.0, 105.0, 104.0, 27.0, 6.5};
 
 }  // namespace
 

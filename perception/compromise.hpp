@@ -29,7 +29,7 @@ struct Compromise {
 };
 
 /// Estimated work of a frame's pixels before its sections begin.
-inline constexpr double kWorkPerPixel_ns = 20.0;
+inline constexpr double kWorkPerPixel_ns = 10.0;
 
 /// Chooses the level for each frame so that its work fits into the time.
 class CompromiseControl {
