@@ -26,9 +26,15 @@ SearchOutcome OutlineSearch::search(const PlanningGrid& grid, GridCell start, do
   start_ = start;
   goal_ = goal;
   expanded_ = 0;
-  queue_.reset(SearchGrid::weighted(cells.steps.diagonal, 255, 255) + cells.steps.diagonal + 1);
+  // A step raises cost + heuristic by no more than twice its own cost.
+  queue_.reset(2 * SearchGrid::weighted(cells.steps.diagonal, 255, 255) + 1);
   if (start == goal) return SearchOutcome::kFound;
-  queue_.push(octile(goal.x - start.x, goal.y - start.y, cells.steps), kNone);  // none of the states yet
+  bounded_ = grid.aids().blocks != nullptr;
+  if (bounded_) {
+    bounds_.begin(*grid.aids().blocks, cells.steps, goal);
+    if (!bounds_.reach(start, interrupt)) return SearchOutcome::kInterrupted;
+  }
+  queue_.push(least_rest(start), kNone);  // none of the states yet
   std::uint32_t item = 0;
   while (queue_.pop(item)) {
     if (item == kNone) {
@@ -77,7 +83,12 @@ void OutlineSearch::reach(const State& from, std::uint32_t k, std::uint32_t tag)
   if (states_.current(known) && known.value <= cost) return;
   if (!may_turn(from.cell, from.heading, k) || !may_step(from.cell, k)) return;
   known = {cost, states_.tag() | tag | k};
-  queue_.push(cost + octile(goal_.x - to.x, goal_.y - to.y, cells.steps), state);
+  queue_.push(cost + least_rest(to), state);
+}
+
+std::uint32_t OutlineSearch::least_rest(GridCell cell) {
+  const std::uint32_t length = octile(goal_.x - cell.x, goal_.y - cell.y, grid_->search_grid().steps);
+  return bounded_ ? std::max(length, bounds_(cell)) : length;
 }
 
 /// Half a turn may go either way: both must be open.

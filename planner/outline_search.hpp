@@ -6,6 +6,7 @@
 #include "planner/planning_grid.hpp"
 #include "planner/search/a_star.hpp"
 #include "planner/search/bucket_queue.hpp"
+#include "planner/search/goal_bounds.hpp"
 #include "planner/search/search_cells.hpp"
 
 namespace floornav {
@@ -13,7 +14,8 @@ namespace floornav {
 /// A* for a robot that is no circle: over cells and the eight headings in which it may arrive there. On every
 /// step and in every turn, the short way round, its outline overlaps nothing blocked. Where there is room for
 /// any heading a cell is one state, elsewhere eight; outlines are looked at only where a step would be worth
-/// taking.
+/// taking. On a weighted grid its heuristic is that of GoalBounds too: no way of the outline is cheaper than
+/// that of a point.
 class OutlineSearch {
  public:
   /// From a cell, heading for `heading_rad`, to another, whatever the heading there. Throws
@@ -47,6 +49,7 @@ class OutlineSearch {
   [[nodiscard]] bool may_turn(GridCell cell, std::uint32_t from, std::uint32_t to) const;
   [[nodiscard]] bool may_step(GridCell cell, std::uint32_t k) const;
   [[nodiscard]] bool clear(const std::vector<RowSpan>& spans, GridCell cell) const;
+  [[nodiscard]] std::uint32_t least_rest(GridCell cell);
   [[nodiscard]] std::uint32_t state_of(GridCell cell, std::uint32_t heading) const;
   [[nodiscard]] std::uint32_t best_state(GridCell cell) const;
 
@@ -54,6 +57,8 @@ class OutlineSearch {
   GridCell start_, goal_;
   BucketQueue queue_;
   SearchCells states_;
+  GoalBounds bounds_;
+  bool bounded_ = false;
   std::int64_t expanded_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "planner/shortening.hpp"
 
+#include <algorithm>
+
 #include "planner/clear_way.hpp"
 #include "planner/route.hpp"
 
@@ -41,35 +43,38 @@ class Joiner {
   std::vector<std::size_t> known_;  ///< cells of known free floor before each
 };
 
+/// A place before `end` that suits, as `first` does, and the next one does not: looked for in doubling
+/// strides, then in halves.
+template <class Suits>
+std::size_t farthest(std::size_t first, std::size_t end, const Suits& suits) {
+  std::size_t suitable = first, next = first + 1;
+  for (std::size_t stride = 1; next < end && suits(next); stride *= 2) {
+    suitable = next;
+    next += stride;
+  }
+  std::size_t beyond = std::min(next, end);
+  while (beyond - suitable > 1) {
+    const std::size_t middle = suitable + (beyond - suitable) / 2;
+    (suits(middle) ? suitable : beyond) = middle;
+  }
+  return suitable;
+}
+
 }  // namespace
 
 std::vector<GridPoint> shorten(const PlanningGrid& grid, const std::vector<GridCell>& path,
                                double heading_rad) {
   const Joiner joiner(grid, path);
   std::vector<std::size_t> corners{0};  // places in the path
-  const auto before = [&](std::size_t i) {
-    return i == 0 ? heading_rad : joiner.heading(corners[i - 1], corners[i]);
-  };
-  const auto on = [&](std::size_t from, std::size_t to, std::size_t next) {
-    return next < path.size() ? joiner.heading(to, next) : joiner.heading(from, to);
-  };
-  for (std::size_t to = 2; to < path.size(); ++to) {
+  while (corners.back() + 1 < path.size()) {
     const std::size_t from = corners.back();
-    if (!joiner.may_join(from, to, before(corners.size() - 1), on(from, to, to + 1)))
-      corners.push_back(to - 1);
-  }
-  if (path.size() > 1) corners.push_back(path.size() - 1);
-  // A line that failed on its way may yet reach further: leave out single corners as long as that is
-  // possible.
-  for (std::size_t i = 1; i + 1 < corners.size();) {
-    const std::size_t next = i + 2 < corners.size() ? corners[i + 2] : path.size();
-    if (joiner.may_join(corners[i - 1], corners[i + 1], before(i - 1),
-                        on(corners[i - 1], corners[i + 1], next))) {
-      corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(i));
-      i = std::max<std::size_t>(i - 1, 1);
-    } else {
-      ++i;
-    }
+    const double before =
+        corners.size() > 1 ? joiner.heading(corners[corners.size() - 2], from) : heading_rad;
+    const auto joins = [&](std::size_t to) {
+      const double after = to + 1 < path.size() ? joiner.heading(to, to + 1) : joiner.heading(from, to);
+      return joiner.may_join(from, to, before, after);
+    };
+    corners.push_back(farthest(from + 1, path.size(), joins));
   }
   std::vector<GridPoint> points;
   for (const std::size_t place : corners) points.push_back(centre(path[place]));

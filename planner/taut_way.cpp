@@ -39,6 +39,7 @@ class String {
     bool better = false;
     for (std::size_t i = 1; i + 1 < corners_.size(); ++i) {
       if (known_[i - 1] != known_[i]) continue;
+      cost_ = cost_of({corners_[i - 1], corners_[i], corners_[i + 1]}, i);
       better = leave_out(i) || split(i, by) || move(i, by) || better;
       if (i + 1 >= corners_.size()) break;
     }
@@ -71,11 +72,11 @@ class String {
 
   /// Puts others in the place of a corner, if that is cheaper and as free.
   bool replace(std::size_t i, const std::vector<GridPoint>& others) {
-    std::vector<GridPoint> before{corners_[i - 1], corners_[i], corners_[i + 1]};
     std::vector<GridPoint> after{corners_[i - 1]};
     after.insert(after.end(), others.begin(), others.end());
     after.push_back(corners_[i + 1]);
-    if (cost_of(after, i) >= cost_of(before, i) * (1 - kLeastGain) || !is_open(after, i)) return false;
+    const double enough = cost_ * (1 - kLeastGain);
+    if (length_of(after) >= enough || cost_of(after, i) >= enough || !is_open(after, i)) return false;
     const auto at = static_cast<std::ptrdiff_t>(i);
     const char known = known_[i];
     corners_.erase(corners_.begin() + at);
@@ -93,6 +94,14 @@ class String {
   [[nodiscard]] double heading_behind(std::size_t i, const std::vector<GridPoint>& way) const {
     return i + 2 < corners_.size() ? heading_between(corners_[i + 1], corners_[i + 2])
                                    : heading_between(way[way.size() - 2], way.back());
+  }
+
+  /// Less than the cost.
+  [[nodiscard]] static double length_of(const std::vector<GridPoint>& way) {
+    double length = 0;
+    for (std::size_t k = 1; k < way.size(); ++k)
+      length += std::hypot(way[k].x - way[k - 1].x, way[k].y - way[k - 1].y);
+    return length;
   }
 
   [[nodiscard]] double cost_of(const std::vector<GridPoint>& way, std::size_t i) const {
@@ -131,6 +140,7 @@ class String {
   std::vector<char> known_;  ///< of each line: it keeps to known free floor
   double heading_rad_;
   double turn_cost_;
+  double cost_ = 0;  ///< of the lines and turns at the corner that is being moved
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -174,12 +175,48 @@ void print_row(const Row& row) {
   std::fflush(stdout);
 }
 
+enum class Kind { kGame, kRooms, kCity, kOther };
+
+/// Moving AI's names: mazes and random fields are called so, cities begin with a capital and end with a size.
+Kind kind_of(const std::string& map) {
+  if (map.starts_with("maze") || map.starts_with("random")) return Kind::kOther;
+  if (map.find("room") != std::string::npos) return Kind::kRooms;
+  const bool sized = map.ends_with("_256") || map.ends_with("_512") || map.ends_with("_1024");
+  return sized && map.front() >= 'A' && map.front() <= 'Z' ? Kind::kCity : Kind::kGame;
+}
+
+void print_mean(const char* what, const std::vector<double>& ratios) {
+  if (ratios.empty()) return;
+  double sum = 0;
+  for (const double ratio : ratios) sum += ratio;
+  fmt::print("{}: mean {:.1f}, least {:.1f} times\n", what, sum / static_cast<double>(ratios.size()),
+             *std::min_element(ratios.begin(), ratios.end()));
+}
+
+void print_means(const std::vector<Row>& rows) {
+  std::vector<double> boost, jumps;
+  for (const Row& row : rows) {
+    const Kind kind = kind_of(row.map);
+    if (kind == Kind::kOther) continue;
+    jumps.push_back(row.a_star.times.mean() / row.jumps.times.mean());
+    if (kind != Kind::kCity && row.boost.count() > 0)
+      boost.push_back(row.boost.times.mean() / row.a_star.times.mean());
+  }
+  print_mean("A* over Boost.Graph's, game and room maps", boost);
+  print_mean("jump points over A*, game, room and city maps", jumps);
+}
+
 void print_table(const Options& options) {
   fmt::print("Mean microseconds of processor time a problem; wrong: lengths other than the published ones\n");
   fmt::print("{:<16}{:>6}{:>10}{:>8}{:>7}{:>10}{:>7}{:>8}{:>10}{:>7}{:>8}{:>10}{:>7}{:>8}\n", "map", "n",
              "A*", "exp/us", "wrong", "jumps", "wrong", "A*/j", "chosen", "wrong", "/best", "Boost A*",
              "wrong", "B/A*");
-  for (const Benchmark& benchmark : benchmarks_of(options)) print_row(measure_row(options, benchmark));
+  std::vector<Row> rows;
+  for (const Benchmark& benchmark : benchmarks_of(options)) {
+    rows.push_back(measure_row(options, benchmark));
+    print_row(rows.back());
+  }
+  print_means(rows);
 #ifndef FLOORNAV_BOOST_GRAPH
   fmt::print("(built without Boost.Graph)\n");
 #endif

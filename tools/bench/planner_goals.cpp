@@ -72,6 +72,26 @@ Times searches_on_office(std::int32_t side, const PlannerSettings& settings, int
   return times;
 }
 
+/// The whole of it on a map that does not change: the way, its shape and its speeds.
+Times plans_in_office(std::int32_t side, int count) {
+  const GridMap map = office_map(side, 1);
+  PlanningGrid grid({}, RobotSettings{});
+  grid.update(map, all_of(side), {});
+  Planner planner({}, RobotSettings{});
+  RandomStream random(2);
+  Times times;
+  for (int i = -2; i < count; ++i) {
+    const GridCell start = any_place(grid, side, random), goal = any_place(grid, side, random);
+    Pose T_world_body = Pose::Identity();
+    T_world_body.translation() = Eigen::Vector3d(grid.x_of(start.x), grid.y_of(start.y), 0);
+    Times warm_up;
+    (i < 0 ? warm_up : times).add([&] {
+      planner.plan(map, T_world_body, {grid.x_of(goal.x), grid.y_of(goal.y), 0.1});
+    });
+  }
+  return times;
+}
+
 /// Where a robot of 1.0 m x 0.5 m, which is no circle, is free to stand and to set out.
 Times outline_searches_on_office(std::int32_t side, int count) {
   RobotSettings robot;
@@ -171,7 +191,7 @@ void print_gap_field() {
     for (std::int32_t x = 0; x < kSide; ++x)
       kinds.push_back(map.state({x, y}) == VertexState::kBlocked ? 1 : 0);
   GapField field;
-  constexpr std::int32_t kReach = 17;  // a PowerBot's radius, its comfort and two cells
+  constexpr std::int32_t kReach = 16;  // a PowerBot's circle of 0.52 m, its comfort and two cells
   field.reset(kSide, kSide, kReach);
   const ObstacleCells cells{kinds.data(), kSide, kSide, 1};
   field.update(cells, all_of(kSide));
@@ -228,6 +248,7 @@ void print_planner_goals(const std::filesystem::path& movingai_folder) {
   print_upscaled(movingai_folder);
   print("A* with costs, office of 50 m x 50 m at 0.05 m", "<= 10 ms",
         mean_and_p99(searches_on_office(992, {}, 200)));
+  print("  the whole plan: way, shape and speeds", "", mean_and_p99(plans_in_office(992, 60)));
   print_changes("uniform", "p99 <= 5 ms", uniform_settings());
   print_changes("with costs", "p99 <= 20 ms", {});
   print("4096 x 4096 with clearance costs, office", "<= 100 ms",
