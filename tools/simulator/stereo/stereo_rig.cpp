@@ -68,6 +68,27 @@ float filter_of(const std::string& bayer, int x, int y) {
   }
 }
 
+/// How a value changes to the next row: of the rows above and below the one on the same surface tells.
+float smaller_step(float above, float here, float below) {
+  return std::fabs(here - above) < std::fabs(below - here) ? here - above : below - here;
+}
+
+/// Mean of the texture along the strip of a surface that a pixel sees, `wide_m` wide: far away a level
+/// surface's is many times longer than wide, and a lens blurs it along its length only.
+float mean_between(const WorldTexture& texture, const Eigen::Vector3f& begin, const Eigen::Vector3f& end,
+                   float wide_m) {
+  constexpr float kMostPieces = 12;
+  const float length_m = (end - begin).norm();
+  const float pieces = std::clamp(std::ceil(length_m / wide_m), 1.0F, kMostPieces);
+  const float footprint_m = std::max(wide_m, length_m / pieces);
+  float sum = 0;
+  for (float piece = 0.5F; piece < pieces; ++piece) {
+    const Eigen::Vector3f place = begin + piece / pieces * (end - begin);
+    sum += texture.at(place.x(), place.y(), place.z(), footprint_m);
+  }
+  return sum / pieces;
+}
+
 }  // namespace
 
 StereoRigSpec bumblebee2_rig() {
@@ -150,18 +171,20 @@ void StereoRig::render(const Shapes& shapes, const Pose& T_world_eye, cv::Mat1f&
   for (int y = 0; y < canvas_.height; ++y) {
     const float* const depth = depth_.data() + static_cast<std::ptrdiff_t>(y) * canvas_.width;
     const float* const above = y > 0 ? depth - canvas_.width : depth;
+    const float* const below = y + 1 < canvas_.height ? depth + canvas_.width : depth;
     for (int x = 0; x < canvas_.width; ++x) {
       const float z = depth[x];
       if (!(z < 100.0F)) {
         grey(y, x) = kNothing;
         continue;
       }
-      const Eigen::Vector3f place =
-          T * Eigen::Vector3f(z * canvas_.ray(static_cast<float>(x), static_cast<float>(y)));
-      const float pixel_m = z / canvas_.fx;
-      const float slant_m =
-          std::min(std::fabs(above[x] - z), 40 * pixel_m);  // of a level surface, row to row
-      grey(y, x) = kMiddleGrey + texture_.at(place.x(), place.y(), place.z(), pixel_m + slant_m);
+      const float step = smaller_step(1 / above[x], 1 / z, 1 / below[x]);
+      const auto place = [&](float row) {
+        const float inverse_depth = std::max(0.5F / z, 1 / z + (row - static_cast<float>(y)) * step);
+        return Eigen::Vector3f(T * Eigen::Vector3f(canvas_.ray(static_cast<float>(x), row) / inverse_depth));
+      };
+      const auto row = static_cast<float>(y);
+      grey(y, x) = kMiddleGrey + mean_between(texture_, place(row - 0.5F), place(row + 0.5F), z / canvas_.fx);
     }
   }
 }

@@ -66,14 +66,17 @@ float WorldTexture::at_level(int level, float u, float v) const {
 }
 
 float WorldTexture::at(float x, float y, float z, float footprint_m) const {
-  // skewed, so that no upright or level surface is seen edge-on
-  const float u = (x + 0.71F * z) / kTexel_m;
-  const float v = (y + 0.63F * z) / kTexel_m;
   const float wanted =
       std::clamp(std::log2(footprint_m / kTexel_m), 0.0F, static_cast<float>(kLevels) - 1.01F);
   const auto level = static_cast<int>(wanted);
   const float t = wanted - static_cast<float>(level);
-  return (1 - t) * at_level(level, u, v) + t * at_level(level + 1, u, v);
+  const auto pattern = [&](float u, float v) {
+    return (1 - t) * at_level(level, u, v) + t * at_level(level + 1, u, v);
+  };
+  // two patterns that hang down askew, across each other: what sees one of them edge-on sees the other whole
+  constexpr float kHalf = 0.7071F;  // of the variance
+  return kHalf * (pattern((x + 0.71F * z) / kTexel_m, (y + 0.63F * z) / kTexel_m) +
+                  pattern((x - 0.63F * z) / kTexel_m + 311, (y + 0.71F * z) / kTexel_m + 173));
 }
 
 }  // namespace floornav
