@@ -17,8 +17,8 @@ namespace floornav {
 /// ones.
 class DisparityRefinement {
  public:
-  /// `window`: side, px, odd.
-  explicit DisparityRefinement(int window) : reach_(window / 2) {}
+  /// `window`: px, odd.
+  explicit DisparityRefinement(cv::Size window) : reach_(window / 2) {}
 
   /// Some rows: `left` and `right` rectified, 8 bit; `disparity` px, 0 = none, to `refined`. `sigma` becomes
   /// 1 sigma of each, px, from what is left of the difference and from the window's texture; infinite where
@@ -30,7 +30,7 @@ class DisparityRefinement {
  private:
   void begin(int columns);
 
-  int reach_;
+  cv::Size reach_;                 ///< half of the window
   std::vector<ComparedRow> ring_;  ///< the rows that are in the sums, and one that comes
   ColumnSums sums_;
   std::vector<std::int32_t> packed_;

@@ -10,7 +10,7 @@ namespace floornav {
 /// the pixel's own.
 ///
 /// Some rows of `rough` (px; 0: none) to the same ones of `smooth`, an image of the same size; 0 stays 0, and
-/// a margin of half a window stays as it is. Bands of rows are independent work. `window`: side, px.
-void smooth_disparities(const cv::Mat1f& rough, int window, cv::Range rows, cv::Mat1f& smooth);
+/// a margin of half a window stays as it is. Bands of rows are independent work. `window`: px.
+void smooth_disparities(const cv::Mat1f& rough, cv::Size window, cv::Range rows, cv::Mat1f& smooth);
 
 }  // namespace floornav

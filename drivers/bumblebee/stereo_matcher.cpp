@@ -5,7 +5,7 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include "drivers/bumblebee/edge_check.hpp"
+#include "drivers/bumblebee/edge_mask.hpp"
 #include "drivers/bumblebee/smoothing_kernel.hpp"
 #include "drivers/bumblebee/two_sizes.hpp"
 
@@ -61,8 +61,7 @@ StereoMatcher::StereoMatcher(const StereoSettings& settings, const Pinhole& came
 
 void StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, Parallel& parallel,
                           DisparityImage& image) {
-  refinements_.resize(static_cast<std::size_t>(parallel.workers()),
-                      DisparityRefinement(settings_.refinement_window_px | 1));
+  refinements_.resize(static_cast<std::size_t>(parallel.workers()), DisparityRefinement(window()));
   levels_.front().left = left;
   levels_.front().right = right;
   for (std::size_t i = 1; i < levels_.size(); ++i) shrink(levels_[i - 1], parallel, levels_[i]);
@@ -72,7 +71,6 @@ void StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, Parallel& p
   refine(parallel, smallest);
   for (std::size_t i = levels_.size() - 1; i-- > 0;) {
     enlarge_from(levels_[i + 1], parallel, levels_[i]);
-    if (i + 2 == levels_.size()) check(parallel, levels_[i]);
     if (i > 0) smooth(parallel, levels_[i]);
     refine(parallel, levels_[i]);
   }
@@ -80,7 +78,7 @@ void StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, Parallel& p
     smooth(parallel, smallest);
     refine(parallel, smallest);
   }
-  drop_speckles(parallel);
+  choose_pixels(parallel);
   image.width = size_.width;
   image.height = size_.height;
   image.pixels.assign(static_cast<std::size_t>(size_.area()), 0);
@@ -101,19 +99,15 @@ void StereoMatcher::enlarge_from(const Level& smaller, Parallel& parallel, Level
            [&](cv::Range rows, std::size_t) { enlarge(smaller.disparity, rows, level.disparity); });
 }
 
-void StereoMatcher::check(Parallel& parallel, Level& level) {
-  cv::swap(level.disparity, level.other);
-  clear_outside(level.rows, level.disparity);
-  in_bands(level.rows, parallel, [&](cv::Range rows, std::size_t) {
-    check_edges(level.left, level.right, level.other, rows, level.disparity);
-  });
+cv::Size StereoMatcher::window() const {
+  return {settings_.refinement_window_px | 1, settings_.refinement_rows_px | 1};
 }
 
 void StereoMatcher::smooth(Parallel& parallel, Level& level) {
   cv::swap(level.disparity, level.other);
   clear_outside(level.rows, level.disparity);
   in_bands(level.rows, parallel, [&](cv::Range rows, std::size_t) {
-    smooth_disparities(level.other, settings_.refinement_window_px, rows, level.disparity);
+    smooth_disparities(level.other, window(), rows, level.disparity);
   });
 }
 
@@ -126,18 +120,22 @@ void StereoMatcher::refine(Parallel& parallel, Level& level) {
   });
 }
 
-void StereoMatcher::drop_speckles(Parallel& parallel) {
+void StereoMatcher::choose_pixels(Parallel& parallel) {
   constexpr float kUnits = 16;  // of a pixel
   const auto most_sigma = static_cast<float>(settings_.max_sigma_px);
   const Level& whole = levels_.front();
   patches_.create(size_);
   in_bands(rows(), parallel, [&](cv::Range rows, std::size_t) {
+    std::vector<std::uint8_t> edge(static_cast<std::size_t>(size_.width));
     for (int y = rows.start; y < rows.end; ++y) {
       const float* const disparity = whole.disparity[y];
       const float* const sigma = whole.sigma[y];
       short* const patch = patches_[y];
-      for (int x = 0; x < size_.width; ++x)
-        patch[x] = static_cast<short>(sigma[x] <= most_sigma ? static_cast<int>(disparity[x] * kUnits) : 0);
+      mark_edges(whole.disparity, y, edge.data());
+      for (int x = 0; x < size_.width; ++x) {
+        const bool good = (sigma[x] <= most_sigma) & (edge[static_cast<std::size_t>(x)] == 0);
+        patch[x] = static_cast<short>(good ? static_cast<int>(disparity[x] * kUnits) : 0);
+      }
     }
   });
   cv::Mat matched = patches_.rowRange(rows());

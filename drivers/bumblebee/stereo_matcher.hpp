@@ -17,13 +17,14 @@ namespace floornav {
 
 /// How pairs of images become disparities.
 struct StereoSettings {
-  std::string matcher = "auto";  ///< half, quarter: SGBM at that resolution, refined at full; auto: quarter
-                                 ///< of images from 1024 px on, else half; sgbm: SGBM at full, refined;
-                                 ///< block: StereoBM
-  double nearest_m = 0.6;        ///< of what is matched; nearer takes more time
-  int refinement_window_px = 9;  ///< side of the window in which disparities are refined
-  double max_sigma_px = 0.25;    ///< disparities less certain are left out
-  int speckle_px = 200;          ///< patches of disparity smaller than this are left out
+  std::string matcher = "auto";   ///< half, quarter: SGBM at that resolution, refined at full; auto: quarter
+                                  ///< of images from 1024 px on, else half; sgbm: SGBM at full, refined;
+                                  ///< block: StereoBM
+  double nearest_m = 0.6;         ///< of what is matched; nearer takes more time
+  int refinement_window_px = 15;  ///< width of the window in which disparities are refined
+  int refinement_rows_px = 5;     ///< its height: the top of a box far away is seen in few rows
+  double max_sigma_px = 0.18;     ///< disparities less certain are left out
+  int speckle_px = 200;           ///< patches of disparity smaller than this are left out
 };
 
 template <class Visitor>
@@ -31,6 +32,7 @@ void visit_settings(Visitor& visit, StereoSettings& s) {
   visit("matcher", s.matcher, {"auto", "half", "quarter", "sgbm", "block"});
   visit("nearest_m", s.nearest_m, Allowed{0.1, 10.0});
   visit("refinement_window_px", s.refinement_window_px, Allowed{3, 31});
+  visit("refinement_rows_px", s.refinement_rows_px, Allowed{3, 31});
   visit("max_sigma_px", s.max_sigma_px, Allowed{0.01, 4.0});
   visit("speckle_px", s.speckle_px, Allowed{0, 10000});
 }
@@ -74,11 +76,11 @@ class StereoMatcher {
 
   void shrink(const Level& larger, Parallel& parallel, Level& level);
   void enlarge_from(const Level& smaller, Parallel& parallel, Level& level);
-  void check(Parallel& parallel, Level& level);
   void smooth(Parallel& parallel, Level& level);
   void refine(Parallel& parallel, Level& level);
-  /// Leaves out patches that nothing around confirms.
-  void drop_speckles(Parallel& parallel);
+  [[nodiscard]] cv::Size window() const;
+  /// Leaves out what is not certain, edges, and patches that nothing around confirms.
+  void choose_pixels(Parallel& parallel);
   void write(cv::Range rows, DisparityImage& image) const;
 
   StereoSettings settings_;
@@ -86,7 +88,7 @@ class StereoMatcher {
   CoarseMatcher coarse_;
   std::vector<Level> levels_;                     ///< the whole images first, those of the coarse match last
   std::vector<DisparityRefinement> refinements_;  ///< of each worker
-  cv::Mat_<short> patches_;                       ///< the final disparities, 1/16 px; 0: not certain
+  cv::Mat_<short> patches_;                       ///< the final disparities, 1/16 px; 0: left out
 };
 
 }  // namespace floornav

@@ -57,8 +57,9 @@ struct Pair {
   cv::Mat right = cv::Mat(480, 640, CV_8UC1);
 };
 
-/// The texture belongs to the right image; the left one shows it shifted by the plane's disparity.
-Pair render(const SlantedPlane& plane, unsigned seed, double noise) {
+/// The texture belongs to the right image; the left one shows it shifted by the surface's disparity.
+template <class Surface>
+Pair render(const Surface& plane, unsigned seed, double noise) {
   const Texture texture(seed);
   std::mt19937 random(seed + 1000);
   std::normal_distribution<double> grain(0, noise);
@@ -165,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(Matchers, SlantedFloor,
 class Threads : public testing::TestWithParam<const char*> {};
 
 TEST_P(Threads, MakeNoDifferenceToAnyByte) {
-  const Pair pair = render({30, 0.01, 0.06}, 7, 2.0);
+  const Pair pair = render(SlantedPlane{30, 0.01, 0.06}, 7, 2.0);
   StereoSettings settings;
   settings.matcher = GetParam();
   Pinhole camera;
@@ -186,6 +187,46 @@ TEST_P(Threads, MakeNoDifferenceToAnyByte) {
     EXPECT_EQ(shared.uncertainty, alone.uncertainty) << threads << " threads";
   }
 }
+
+/// A box that is looked down upon: floor, its side, its level top of twelve rows, floor far behind. A row has
+/// one disparity, so that nothing is hidden from one eye.
+struct Box {
+  static constexpr int kBack = 200, kFront = 212, kFoot = 260;
+  static constexpr double kSide_px = 40;
+  [[nodiscard]] static double at(int /*x*/, int y) {
+    if (y < kBack) return 22 + 0.05 * (y - kBack);
+    if (y < kFront) return kSide_px + 0.5 * (y - kFront);
+    return y < kFoot ? kSide_px : kSide_px + 0.15 * (y - kFoot);
+  }
+};
+
+class BoxTop : public testing::TestWithParam<unsigned> {};
+
+TEST_P(BoxTop, IsNeitherItsSideNorHigherThanItIs) {
+  const Pair pair = render(Box{}, GetParam(), 2.0);
+  StereoSettings settings;
+  settings.nearest_m = 0.8;
+  Pinhole camera;
+  camera.fx = 500;
+  StereoMatcher matcher(settings, camera, search_everywhere(camera, 0.12, settings.nearest_m));
+  DisparityImage image;
+  Serial serial;
+  matcher.match(pair.left, pair.right, serial, image);
+  int top = 0, wrong = 0, above = 0;
+  for (int y = Box::kBack - 12; y < Box::kFront; ++y)
+    for (int x = 100; x < 620; ++x) {
+      const double found = image.pixels[static_cast<std::size_t>(y * 640 + x)] * DisparityImage::kUnit_px;
+      if (found == 0) continue;
+      if (y >= Box::kBack) ++top;
+      if (y >= Box::kBack && std::abs(found - Box::at(x, y)) > 0.5) ++wrong;
+      if (y < Box::kBack && found > 30) ++above;
+    }
+  EXPECT_GT(top, 520 * 12 / 4);
+  EXPECT_LT(wrong, top / 50);
+  EXPECT_LT(above, 520 / 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, BoxTop, testing::Values(1U, 2U, 3U));
 
 INSTANTIATE_TEST_SUITE_P(Matchers, Threads, testing::Values("quarter", "block"));
 
