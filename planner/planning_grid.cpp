@@ -10,12 +10,7 @@ namespace floornav {
 namespace {
 
 constexpr std::int64_t kNeverTaken = -2;
-constexpr std::int64_t kNoTile = -1;
 constexpr std::int64_t kMaxCells = 1 << 25;  ///< of 16 bytes each, the searches' included
-
-std::uint8_t weight_of(double cost) {
-  return static_cast<std::uint8_t>(std::lround(std::clamp(cost * SearchGrid::kWeightUnit, 0.0, 255.0)));
-}
 
 /// Squared gap in half cells from which the robot's circle moves freely. A way runs between centres of
 /// neighbouring cells or through squares of four such cells, and is looked at every quarter of a cell: half a
@@ -97,26 +92,13 @@ void PlanningGrid::start_afresh(const GridMap& map, const CellRect& needed, cons
   window_ = window;
 }
 
+std::uint8_t PlanningGrid::weight_of(double cost) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(cost * SearchGrid::kWeightUnit, 0.0, 255.0)));
+}
+
 bool PlanningGrid::uniform() const {
   return settings_.unknown_cost == 0 && settings_.belief_cost == 0 && settings_.slope_cost == 0 &&
          settings_.clearance_cost == 0;
-}
-
-/// What that changed.
-CellRect PlanningGrid::assume_floor_under(const AssumedFloor& robot) {
-  const GridCell low = cell_of(robot.x_m - robot.radius_m, robot.y_m - robot.radius_m),
-                 high = cell_of(robot.x_m + robot.radius_m, robot.y_m + robot.radius_m);
-  const CellRect rect =
-      CellRect{low.x, low.y, high.x + 1, high.y + 1}.clipped({0, 0, search_.width, search_.height});
-  CellRect changed;
-  for (std::int32_t y = rect.y0; y < rect.y1; ++y) {
-    for (std::int32_t x = rect.x0; x < rect.x1; ++x) {
-      if (floor({x, y}) != Floor::kUnknown || !within(robot, x, y)) continue;
-      set_floor(search_.index({x, y}), kAssumed);
-      changed = changed.joined({x, y, x + 1, y + 1});
-    }
-  }
-  return changed;
 }
 
 void PlanningGrid::weigh_gaps() {
@@ -128,111 +110,6 @@ void PlanningGrid::weigh_gaps() {
   }
 }
 
-/// Copies the tiles that are new, changed or gone; the rectangle that holds them.
-CellRect PlanningGrid::take_changed_tiles(const GridMap& map) {
-  CellRect changed;
-  std::size_t slot = 0;
-  for (std::int32_t y = 0; y < search_.height; y += GridTile::kSide) {
-    for (std::int32_t x = 0; x < search_.width; x += GridTile::kSide, ++slot) {
-      const GridTile* const tile = map.find(GridMap::tile_of({window_.x0 + x, window_.y0 + y}));
-      const std::int64_t version = tile != nullptr ? tile->version : kNoTile;
-      if (tile_versions_[slot] == version) continue;
-      tile_versions_[slot] = version;
-      take_tile(tile, x, y);
-      changed = changed.joined({x, y, x + GridTile::kSide, y + GridTile::kSide});
-    }
-  }
-  return changed;
-}
-
-void PlanningGrid::take_tile(const GridTile* tile, std::int32_t x0, std::int32_t y0) {
-  std::size_t from = 0;
-  for (std::int32_t y = y0; y < y0 + GridTile::kSide; ++y) {
-    for (std::int32_t x = x0; x < x0 + GridTile::kSide; ++x, ++from) {
-      const std::size_t to = search_.index({x, y});
-      const VertexState state = tile != nullptr ? tile->state[from] : VertexState::kUnknown;
-      if (state == VertexState::kUnknown) {
-        set_floor(to, never_seen(x, y));
-        map_edges_[to] = 0xFF;
-        terrain_[to] = 0;
-        continue;
-      }
-      set_floor(to, state == VertexState::kFree ? std::uint8_t{0} : kBlocked);
-      map_edges_[to] = tile->edges[from];
-      const double slope_deg = static_cast<double>(GridTile::kSlopeUnit_deg) * tile->slope[from];
-      const double steepness =
-          robot_.max_slope_deg > 0 ? std::min(slope_deg / robot_.max_slope_deg, 1.0) : 1.0;
-      terrain_[to] = weight_of(settings_.belief_cost * (1.0 - tile->belief[from] / 255.0) +
-                               settings_.slope_cost * steepness);
-    }
-  }
-}
-
-/// Marks free cells that a closed edge parts from another free one. Edges to what is not free are closed too,
-/// but need no mark of their own.
-void PlanningGrid::find_steps(const CellRect& rect) {
-  for (std::int32_t y = rect.y0; y < rect.y1; ++y) {
-    for (std::int32_t x = rect.x0; x < rect.x1; ++x) {
-      const std::size_t i = search_.index({x, y});
-      bool at_step = false;
-      for (std::size_t k = 0; k < 8 && floor({x, y}) == Floor::kFree; k += 2) {
-        const GridCell to{x + kStepX[k], y + kStepY[k]};
-        at_step = at_step || (search_.contains(to) && !map_edge_open(i, search_.index(to), k));
-      }
-      kinds_[i] = static_cast<std::uint8_t>(at_step ? kinds_[i] | kAtStep : kinds_[i] & ~kAtStep);
-    }
-  }
-}
-
-/// Marks the cells within the least gap of those of a kind, after a change.
-void PlanningGrid::find_near(std::uint8_t what, std::uint8_t mark, std::int16_t least_gap, GapScan& scan,
-                             const CellRect& changed) {
-  const CellRect out = changed.grown(scan.reach()).clipped({0, 0, search_.width, search_.height});
-  scan.scan(cells_of(what), out, [&](std::int32_t y, const std::int16_t* gaps) {
-    std::uint8_t* const kinds = kinds_.data() + search_.index({out.x0, y});
-    for (std::int32_t i = 0; i < out.width(); ++i)
-      kinds[i] = static_cast<std::uint8_t>(gaps[i] < least_gap ? kinds[i] | mark : kinds[i] & ~mark);
-  });
-}
-
-void PlanningGrid::weigh(const CellRect& rect) {
-  const std::uint8_t unknown = weight_of(settings_.unknown_cost);
-  for (std::int32_t y = rect.y0; y < rect.y1; ++y) {
-    for (std::int32_t x = rect.x0; x < rect.x1; ++x) {
-      const std::size_t i = search_.index({x, y});
-      const bool fits = blocked_gap_[i] >= least_gap_ && (kinds_[i] & kNearStep) == 0;
-      kinds_[i] = static_cast<std::uint8_t>(fits ? kinds_[i] | kFits : kinds_[i] & ~kFits);
-      if (search_.weights.empty()) continue;
-      const unsigned unseen = (kinds_[i] & kNearUnknown) != 0 ? unknown : 0U;
-      const unsigned near_obstacle = gap_weights_[static_cast<std::size_t>(blocked_gap_[i])];
-      search_.weights[i] = static_cast<std::uint8_t>(std::min(255U, terrain_[i] + unseen + near_obstacle));
-    }
-  }
-}
-
-void PlanningGrid::open_edges(const CellRect& rect) {
-  for (std::int32_t y = rect.y0; y < rect.y1; ++y)
-    for (std::int32_t x = rect.x0; x < rect.x1; ++x) search_.edges[search_.index({x, y})] = edges_at(x, y);
-}
-
-void PlanningGrid::project_open_cells(const CellRect& rect) {
-  for (std::int32_t y = rect.y0; y < rect.y1; ++y) {
-    for (std::int32_t x = rect.x0; x < rect.x1; ++x) {
-      std::uint8_t& kind = kinds_[search_.index({x, y})];
-      const bool parted = search_.edges[search_.index({x, y})] != 0 && !in_the_open(search_, {x, y});
-      parted_cells_ += (parted ? 1 : 0) - ((kind & kParted) != 0 ? 1 : 0);
-      kind = static_cast<std::uint8_t>(parted ? kind | kParted : kind & ~kParted);
-    }
-  }
-  const auto is_open = [&](GridCell cell) {
-    return search_.edges[search_.index(cell)] != 0 && (kinds_[search_.index(cell)] & kParted) == 0;
-  };
-  if (rect.contains({0, 0, search_.width, search_.height}))
-    return open_cells_.build(search_.width, search_.height, is_open);
-  for (std::int32_t y = rect.y0; y < rect.y1; ++y)
-    for (std::int32_t x = rect.x0; x < rect.x1; ++x) open_cells_.set({x, y}, is_open({x, y}));
-}
-
 bool PlanningGrid::clear(const RowSpan& span, GridCell from, Avoid avoid) const {
   const unsigned kinds = avoid == Avoid::kBlocked ? kBlocked : kBlocked | kUnknown;
   const std::int32_t y = span.y + from.y;
@@ -241,40 +118,6 @@ bool PlanningGrid::clear(const RowSpan& span, GridCell from, Avoid avoid) const 
   unsigned found = 0;
   for (std::int32_t x = x0; x <= x1; ++x) found |= kinds_[search_.index({x, y})];
   return (found & kinds) == 0;
-}
-
-/// The map knows edges only between cells that were seen to be free.
-bool PlanningGrid::map_edge_open(std::size_t from, std::size_t to, std::size_t k) const {
-  constexpr unsigned kNotFree = kBlocked | kUnknown | kAssumed;
-  if (((kinds_[from] | kinds_[to]) & kNotFree) != 0) return true;
-  return (map_edges_[from] >> k & 1) != 0 && (map_edges_[to] >> ((k + 4) % 8) & 1) != 0;
-}
-
-bool PlanningGrid::map_edge_open(GridCell cell, std::size_t k) const {
-  const GridCell to{cell.x + kStepX[k], cell.y + kStepY[k]};
-  return search_.contains(cell) && search_.contains(to) &&
-         map_edge_open(search_.index(cell), search_.index(to), k);
-}
-
-/// Steps out of a cell, to others that the robot fits in too. A diagonal one is open where all four edges of
-/// the square that it crosses are: it cuts no corner, neither of an obstacle nor of a step.
-std::uint8_t PlanningGrid::edges_at(std::int32_t x, std::int32_t y) const {
-  if (!passable({x, y})) return 0;
-  const auto link_open = [&](GridCell from, std::size_t k) {
-    const GridCell to{from.x + kStepX[k], from.y + kStepY[k]};
-    return search_.contains(to) && passable(from) && passable(to) &&
-           map_edge_open(search_.index(from), search_.index(to), k);
-  };
-  const auto neighbour = [&](std::size_t k) { return GridCell{x + kStepX[k], y + kStepY[k]}; };
-  unsigned mask = 0;
-  for (std::size_t k = 0; k < 8; k += 2)
-    if (link_open({x, y}, k)) mask |= 1U << k;
-  for (std::size_t k = 1; k < 8; k += 2) {
-    const std::size_t a = k - 1, b = (k + 1) % 8;
-    if ((mask >> a & 1) == 0 || (mask >> b & 1) == 0) continue;
-    if (link_open({x, y}, k) && link_open(neighbour(a), b) && link_open(neighbour(b), a)) mask |= 1U << k;
-  }
-  return static_cast<std::uint8_t>(mask);
 }
 
 Floor PlanningGrid::floor(GridCell cell) const {
@@ -304,14 +147,6 @@ double PlanningGrid::clearance_m(GridCell cell) const {
 GridCell PlanningGrid::cell_of(double x_m, double y_m) const {
   const CellIndex cell = lattice_.cell_of(x_m, y_m);
   return {cell.ix - window_.x0, cell.iy - window_.y0};
-}
-
-/// What a cell that was never seen is taken for.
-std::uint8_t PlanningGrid::never_seen(std::int32_t x, std::int32_t y) const {
-  if (within(assumed_, x, y)) return kAssumed;
-  const bool shut =
-      std::any_of(shut_.begin(), shut_.end(), [&](const AssumedFloor& c) { return within(c, x, y); });
-  return shut ? kBlocked : kUnknown;
 }
 
 bool PlanningGrid::within(const AssumedFloor& circle, std::int32_t x, std::int32_t y) const {

@@ -112,6 +112,8 @@ class PlanningGrid {
 
   static constexpr std::uint8_t kParted = 128;  ///< has open steps, but is none of the open cells
 
+  /// That of a metre which costs so many metres more.
+  [[nodiscard]] static std::uint8_t weight_of(double cost);
   void start_afresh(const GridMap& map, const CellRect& needed, const AssumedFloor& assumed);
   void weigh_gaps();
   /// Nothing costs more than its length.
