@@ -12,7 +12,7 @@ struct PlannerSettings {
   double belief_cost = 2.0;          ///< a metre of belief 0, less in proportion above
   double slope_cost = 1.0;           ///< a metre of the robot's steepest slope, less in proportion below
   double clearance_cost = 2.0;       ///< a metre along an obstacle, less in proportion up to comfort_m
-  double turn_cost = 0.1;            ///< a radian turned; decides between a way and the one that is kept
+  double turn_cost = 0.1;            ///< a radian turned: in a way's shape, and against the one that is kept
   double comfort_m = 0.15;           ///< between footprint and obstacle: full speed and no cost from here on
   double max_distance_m = 100.0;     ///< a goal further away is refused
   double detour_m = 2.0;             ///< how far around the map's bounds a way may lead
