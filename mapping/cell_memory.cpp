@@ -55,7 +55,8 @@ std::int32_t doubt(const Level& level, const CellView& view, const FusionLimits&
   for (const Sighting& sighting : view.sightings) {
     if (sighting.column || sighting.z_m >= level.z_m || fits(level, sighting, limits)) continue;
     if (looks_under(sighting.z_m, level)) continue;
-    doubt = std::max(doubt, kMuchSharper * sighting.var_m2 < level.var_m2 ? 4 : 1);
+    const bool is_sharper = !sighting.in_part && kMuchSharper * sighting.var_m2 < level.var_m2;
+    doubt = std::max(doubt, is_sharper ? 4 : 1);
   }
   return doubt;
 }
@@ -138,6 +139,11 @@ void CellMemory::lift(float by_m, float rise_x, float rise_y) {
     level->gradient_x += rise_x;
     level->gradient_y += rise_y;
   }
+}
+
+bool CellMemory::is_stepped(float max_step_m) const {
+  if (!lower_.trusted() || !upper_.trusted()) return false;
+  return upper_.z_m - lower_.z_m > max_step_m + 3.0F * std::sqrt(upper_.var_m2 + lower_.var_m2);
 }
 
 bool CellMemory::has_high_top() const {

@@ -34,6 +34,7 @@ struct Level : Surface {
 struct Sighting : Surface {
   std::int32_t points = 0;
   float lowest_z_m = 0;  ///< what is known of its lower end
+  bool in_part = false;  ///< a good part of the cell was hidden
 };
 
 /// All that one frame tells of a cell.
@@ -63,7 +64,7 @@ class CellMemory {
   /// nearer views win) or makes a new one; a few points alone above a floor that is already trusted decide
   /// only when a third frame has seen them, since what depth edges throw there is seen once or twice. A level
   /// that was not seen loses support where a ray passed below it or something below it was seen; four times
-  /// as much where that view is twice as sharp. False where the view told nothing.
+  /// as much where that view is twice as sharp and of the whole cell. False where the view told nothing.
   bool fuse(const CellView& view, const FusionLimits& limits);
 
   /// The surface that decides: the highest trusted one; null where there is none.
@@ -73,6 +74,8 @@ class CellMemory {
   }
   /// Moves all that it holds: what was taken for the robot's pose was wrong by that.
   void lift(float by_m, float rise_x, float rise_y);
+  /// Two levels more than `max_step_m` and their noise apart: the edge of something goes through the cell.
+  [[nodiscard]] bool is_stepped(float max_step_m) const;
   /// A flat top so high above the floor in the same cell that the floor can be seen from the side below it.
   [[nodiscard]] bool has_high_top() const;
   /// Takes from that top's support, after a sight line went right through it.

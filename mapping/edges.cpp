@@ -35,12 +35,24 @@ std::uint8_t towards_absent(const VertexRef& from) {
 
 }  // namespace
 
-bool StepRule::open(const Surface& from, const Surface& to, std::size_t k) const {
+float StepRule::rise_m(const Surface& from, const Surface& to, std::size_t k) const {
   const float half_x_m = 0.5F * resolution_m * static_cast<float>(kNeighbourX[k]);
   const float half_y_m = 0.5F * resolution_m * static_cast<float>(kNeighbourY[k]);
-  const float rise_m =
+  const float by_slope_m =
       (from.gradient_x + to.gradient_x) * half_x_m + (from.gradient_y + to.gradient_y) * half_y_m;
-  return std::abs(to.z_m - from.z_m - rise_m) <= max_step_m;
+  return to.z_m - from.z_m - by_slope_m;
+}
+
+bool is_rim(const VertexRef& place, const StepRule& rule) {
+  const Surface& from = place.vertex().surface;
+  for (std::size_t k = 0; k < 8; k += 2) {
+    const VertexRef to = place.neighbour(k);
+    if (!to || !to.vertex().is(Vertex::kSeen) || to.vertex().surface.column) continue;
+    const Surface& beside = to.vertex().surface;
+    if (-rule.rise_m(from, beside, k) > rule.max_step_m + 3.0F * std::sqrt(from.var_m2 + beside.var_m2))
+      return true;
+  }
+  return false;
 }
 
 void open_steps(MapTile& tile, const StepRule& rule) {

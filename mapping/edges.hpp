@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -16,8 +17,16 @@ struct StepRule {
   /// two planes' heights half-way between them: on level ground the difference of their heights, as in eq.
   /// (2); on a ramp the slope, which has a limit of its own, is not taken for a step, however coarse the map
   /// is.
-  [[nodiscard]] bool open(const Surface& from, const Surface& to, std::size_t k) const;
+  [[nodiscard]] bool open(const Surface& from, const Surface& to, std::size_t k) const {
+    return std::abs(rise_m(from, to, k)) <= max_step_m;
+  }
+  /// How far up that step goes.
+  [[nodiscard]] float rise_m(const Surface& from, const Surface& to, std::size_t k) const;
 };
+
+/// Whether a vertex is the upper side of a step of more than T. The highest surface in a vertex decides, so
+/// that the edge itself goes through the upper one: no wheel may stand there.
+bool is_rim(const VertexRef& place, const StepRule& rule);
 
 /// Works out MapTile::steps_open of a tile: towards the four side neighbours, where both vertices are
 /// drivable.

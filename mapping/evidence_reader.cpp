@@ -48,7 +48,7 @@ bool EvidenceReader::stands_out(const CellEvidence& cell, const Surface& plane, 
   return cell.top_z_m - cell.mean_z_m > max_step_m_ + rise_m + 3.0F * std::sqrt(point_var_m2(cell));
 }
 
-void EvidenceReader::read(const CellEvidence& cell, const FloorEvidence& evidence,
+void EvidenceReader::read(const CellEvidence& cell, const FloorEvidence& evidence, std::int32_t plane_points,
                           std::vector<Sighting>& sightings) const {
   if (cell.points == 0) return;
   Sighting column;
@@ -62,14 +62,16 @@ void EvidenceReader::read(const CellEvidence& cell, const FloorEvidence& evidenc
     sightings.push_back(column);
     return;
   }
-  const Sighting plane = plane_of(cell, evidence.surfels[static_cast<std::size_t>(cell.surfel)]);
+  Sighting plane = plane_of(cell, evidence.surfels[static_cast<std::size_t>(cell.surfel)]);
   if (std::hypot(plane.gradient_x, plane.gradient_y) > kSteepestPlane) {
     column.gradient_x = plane.gradient_x;
     column.gradient_y = plane.gradient_y;
     sightings.push_back(column);
     return;
   }
-  sightings.push_back(plane);
+  plane.points = plane_points;
+  plane.in_part = plane_points < cell.points;
+  if (plane_points > 0) sightings.push_back(plane);
   if (!stands_out(cell, plane, evidence.lattice.pitch_m)) return;
   column.points = std::min(cell.points, kPointsThatStandOut);
   column.lowest_z_m = cell.top_z_m;

@@ -144,7 +144,8 @@ bool MapJudge::judge_vertex(const VertexRef& place, float floor_m) {
   const float slope = slope_deg(vertex.surface);
   const float belief_here = belief(vertex.surface.z_m - floor_m, slope);
   const bool believed = belief_here >= static_cast<float>(settings_.min_belief);
-  vertex.set(Vertex::kFree, believed && vertex.is(Vertex::kDrivable) && !vertex.is(Vertex::kCutOff));
+  vertex.set(Vertex::kFree, believed && vertex.is(Vertex::kDrivable) && !vertex.is(Vertex::kCutOff) &&
+                                !is_rim(place, rule_));
   return write_seen(grid, i, vertex, belief_here, slope) || differs;
 }
 

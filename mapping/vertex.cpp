@@ -69,6 +69,7 @@ SquareSummary summarise(std::span<const CellMemory* const> cells, std::int32_t s
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Surface* decider = cells[i] ? cells[i]->decider() : nullptr;
     if (decider == nullptr) continue;
+    summary.stepped = summary.stepped || cells[i]->is_stepped(step_m);
     const Surface surface = at_center(*decider, i, side, pitch_m);
     if (!summary.seen || surface.z_m > highest.z_m) {
       highest = surface;
@@ -80,7 +81,7 @@ SquareSummary summarise(std::span<const CellMemory* const> cells, std::int32_t s
   }
   if (!summary.seen) return summary;
   const float noise_m = 3.0F * std::sqrt(highest.var_m2 + lowest.var_m2);
-  summary.stepped = highest.z_m - lowest.z_m > step_m + noise_m;
+  summary.stepped = summary.stepped || highest.z_m - lowest.z_m > step_m + noise_m;
   summary.surface = summary.stepped || planes.empty() ? *highest_in_place : planes.mean();
   return summary;
 }

@@ -41,7 +41,7 @@ bool differs_noticeably(const Surface& surface, const Surface& known);
 /// What decides in a square of lattice cells.
 struct SquareSummary {
   bool seen = false;
-  bool stepped = false;  ///< its cells do not lie within a step of each other: the highest decides
+  bool stepped = false;  ///< its cells, or the levels of one, are more than a step apart: the highest decides
   Surface surface;
 };
 

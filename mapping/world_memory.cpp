@@ -18,6 +18,7 @@ float square(double value) {
 WorldMemory::WorldMemory(const MappingSettings& settings, const RobotSettings& robot)
     : settings_(settings),
       reader_(square(settings.view_sigma_m), static_cast<float>(step_limit_m(robot))),
+      coverage_(static_cast<float>(step_limit_m(robot) / 4)),
       limits_{.gate_m = static_cast<float>(step_limit_m(robot) / 2),
               .ray_margin_m = static_cast<float>(step_limit_m(robot)),
               .memory_var_m2 = square(settings.memory_sigma_m)},
@@ -48,7 +49,7 @@ CellView WorldMemory::view_of(const FloorEvidence& evidence, Entries entries) {
     const CellEvidence& cell = evidence.cells[i];
     view.ray_z_m = std::fmin(view.ray_z_m, cell.ray_z_m);
     view.no_return = view.no_return || cell.no_return;
-    reader_.read(cell, evidence, sightings_);
+    reader_.read(cell, evidence, coverage_.points_that_count(evidence, i), sightings_);
   }
   std::ranges::stable_sort(sightings_, {}, &Sighting::z_m);
   return view;
@@ -170,6 +171,7 @@ WorldMemory::Taken WorldMemory::take(const FloorEvidence& evidence, const FloorH
                                      MapTiles& tiles) {
   Taken taken;
   sort_by_cell(evidence, taken);
+  coverage_.take(evidence, order_);
   last_block_.known = false;
   for (std::size_t first = 0; first < order_.size();) {
     std::size_t last = first + 1;

@@ -10,6 +10,7 @@
 #include "mapping/frame_alignment.hpp"
 #include "mapping/map_tiles.hpp"
 #include "mapping/settings.hpp"
+#include "mapping/view_coverage.hpp"
 #include "perception/evidence.hpp"
 #include "runtime/geometry/robot.hpp"
 
@@ -52,6 +53,7 @@ class WorldMemory {
 
   MappingSettings settings_;
   EvidenceReader reader_;
+  ViewCoverage coverage_;
   FusionLimits limits_;
   float overhead_m_;                  ///< above the floor, from where on nothing can be hit
   std::vector<std::uint32_t> order_;  ///< valid entries of the evidence, those of a cell together

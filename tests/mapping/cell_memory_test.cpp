@@ -185,5 +185,28 @@ TEST(CellMemory, NoReturnCountsUntilSomethingIsSeen) {
   EXPECT_EQ(memory.no_return_frames(), 0);
 }
 
+TEST(CellMemory, TwoLevelsFartherApartThanAStepAndTheirNoiseMakeAnEdge) {
+  CellMemory memory;
+  fuse(memory, {plane(0.0F), plane(0.1F)});
+  EXPECT_TRUE(memory.is_stepped(0.02F));
+  EXPECT_FALSE(memory.is_stepped(0.095F));
+  CellMemory floor;
+  fuse(floor, {plane(0.0F)});
+  EXPECT_FALSE(floor.is_stepped(0.02F));
+}
+
+TEST(CellMemory, FloorInPartOfACellSpeaksLessAgainstWhatStandsInTheRest) {
+  CellMemory whole;
+  CellMemory part;
+  fuse(whole, {column(0.4F)});
+  fuse(part, {column(0.4F)});
+  Sighting floor = plane(0.0F);
+  fuse(whole, {floor});
+  floor.in_part = true;
+  fuse(part, {floor});
+  EXPECT_EQ(whole.upper().support, 0);
+  EXPECT_EQ(part.upper().support, Level::kPerFrame - 1);
+}
+
 }  // namespace
 }  // namespace floornav

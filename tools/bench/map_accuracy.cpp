@@ -63,6 +63,11 @@ int drivable_around(const TruthGrid& truth, const Eigen::Vector2d& place_m) {
 
 void count_state(const TruthCell& cell, int around, VertexState state, MapAccuracy& accuracy) {
   const bool blocked = state == VertexState::kBlocked;
+  if (cell.beside_step) {
+    ++accuracy.beside_step;
+    accuracy.beside_step_free += blocked ? 0 : 1;
+    return;
+  }
   if (cell.drivable) {
     ++accuracy.drivable;
     accuracy.drivable_blocked += blocked ? 1 : 0;
@@ -102,6 +107,8 @@ void MapAccuracy::add(const MapAccuracy& more) {
   drivable_blocked += more.drivable_blocked;
   drivable_inside += more.drivable_inside;
   drivable_inside_blocked += more.drivable_inside_blocked;
+  beside_step += more.beside_step;
+  beside_step_free += more.beside_step_free;
   undrivable += more.undrivable;
   undrivable_free += more.undrivable_free;
   undrivable_inside += more.undrivable_inside;

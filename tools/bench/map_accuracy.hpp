@@ -17,6 +17,8 @@ struct MapAccuracy {
   std::int64_t drivable_blocked = 0;  ///< of them
   std::int64_t drivable_inside = 0;   ///< seen, and all eight cells around are drivable too
   std::int64_t drivable_inside_blocked = 0;
+  std::int64_t beside_step = 0;  ///< seen: TruthCell::beside_step; neither drivable nor undrivable here
+  std::int64_t beside_step_free = 0;
   std::int64_t undrivable = 0;         ///< seen
   std::int64_t undrivable_free = 0;    ///< of them
   std::int64_t undrivable_inside = 0;  ///< seen, and none of the eight cells around is drivable

@@ -84,6 +84,10 @@ void print_accuracy(const MapAccuracyOptions& options, const MapAccuracy& a) {
       "{:.2f} %\n",
       100 * free, a.undrivable, 100 * kFreeGoal, verdict(free <= kFreeGoal),
       100 * share(a.undrivable_inside_free, a.undrivable_inside));
+  fmt::print(
+      "with a step on the border  {:.1f} % of {} free, their edges over it closed; with them {:.2f} %\n",
+      100 * share(a.beside_step_free, a.beside_step), a.beside_step,
+      100 * share(a.undrivable_free + a.beside_step_free, a.undrivable + a.beside_step));
   fmt::print("never seen                 {:.1f} % of the view\n", 100 * share(a.unseen, a.in_view));
   const double height_cm = rms_cm(a.square_m2, a.heights);
   fmt::print(

@@ -48,17 +48,19 @@ class CellSampler {
   TruthCell judge(CellIndex cell) {
     const double distance = lattice_.pitch_m / inner_;
     double sum = 0;
-    TruthCell truth{0.0F, -1e9F, true, false};
+    TruthCell truth{0.0F, -1e9F, true, false, true};
     for (int j = 0; j < side_; ++j) {
       for (int i = 0; i < side_; ++i) {
         const Eigen::Vector2d place(cell.ix * lattice_.pitch_m + (i - 0.5) * distance,
                                     cell.iy * lattice_.pitch_m + (j - 0.5) * distance);
         SurfacePoint& sample = at(i, j);
         sample = surface_at(shapes_, place);
-        truth.standable = truth.standable && stands(sample, robot_) &&
-                          (i == 0 || passes(at(i - 1, j), sample, distance, robot_)) &&
-                          (j == 0 || passes(at(i, j - 1), sample, distance, robot_));
+        const bool drives = stands(sample, robot_);
+        const bool from_left = i == 0 || passes(at(i - 1, j), sample, distance, robot_);
+        const bool from_below = j == 0 || passes(at(i, j - 1), sample, distance, robot_);
+        truth.standable = truth.standable && drives && from_left && from_below;
         if (i == 0 || j == 0 || i == side_ - 1 || j == side_ - 1) continue;
+        truth.beside_step = truth.beside_step && drives && (i == 1 || from_left) && (j == 1 || from_below);
         sum += sample.z_m;
         const double ceiling = shapes_.ground.z_m(place) + robot_.height_m;
         truth.highest_m = std::max(truth.highest_m, static_cast<float>(top_at(shapes_, place, ceiling)));
@@ -103,6 +105,28 @@ void flood(TruthGrid& grid, CellIndex start) {
   }
 }
 
+/// Keeps `beside_step`, so far true where the inside alone could be driven on, where the cell could be
+/// reached from a drivable one beside it.
+void keep_reachable_besides(TruthGrid& grid, const RobotSettings& robot) {
+  const double level_m = robot.max_step_m + steepest(robot) * grid.lattice.pitch_m;
+  const auto leads_to = [&](const TruthCell* from, const TruthCell& to) {
+    return from != nullptr && from->drivable && std::abs(from->height_m - to.height_m) <= level_m;
+  };
+  for (std::int32_t j = 0; j < grid.height; ++j) {
+    for (std::int32_t i = 0; i < grid.width; ++i) {
+      const auto place = static_cast<std::size_t>(j * grid.width + i);
+      TruthCell& cell = grid.cells[place];
+      const auto side = [&](std::int32_t di, std::int32_t dj) -> const TruthCell* {
+        const bool inside = i + di >= 0 && j + dj >= 0 && i + di < grid.width && j + dj < grid.height;
+        return inside ? &grid.cells[static_cast<std::size_t>((j + dj) * grid.width + i + di)] : nullptr;
+      };
+      cell.beside_step = cell.beside_step && !cell.standable &&
+                         (leads_to(side(1, 0), cell) || leads_to(side(-1, 0), cell) ||
+                          leads_to(side(0, 1), cell) || leads_to(side(0, -1), cell));
+    }
+  }
+}
+
 }  // namespace
 
 const TruthCell* TruthGrid::at(const Eigen::Vector2d& place) const {
@@ -132,6 +156,7 @@ TruthGrid truth_of(const Scene& scene, const RobotSettings& robot, double resolu
   for (std::int32_t iy = grid.origin.iy; iy <= last.iy; ++iy)
     for (std::int32_t ix = grid.origin.ix; ix <= last.ix; ++ix) grid.cells.push_back(sampler.judge({ix, iy}));
   flood(grid, grid.lattice.cell_of(start.x(), start.y()));
+  keep_reachable_besides(grid, robot);
   return grid;
 }
 

@@ -11,10 +11,14 @@ namespace floornav {
 
 /// The truth about one cell.
 struct TruthCell {
-  float height_m = 0;      ///< mean z of its surface
-  float highest_m = 0;     ///< highest z of all that begins below the robot's height
-  bool standable = false;  ///< no step > T crosses it, nowhere too steep, the robot's height free above
-  bool drivable = false;   ///< standable, and reached from the start over steps <= T
+  float height_m = 0;   ///< mean z of its surface
+  float highest_m = 0;  ///< highest z of all that begins below the robot's height
+  bool standable =
+      false;  ///< no step > T crosses it or its border, nowhere too steep, the robot's height free above
+  bool drivable = false;  ///< standable, and reached from the start over steps <= T
+  /// Drivable by its inside; a step > T that lies along its border, or less than half a sample beyond it,
+  /// makes it not standable. Eq. (2) closes an edge there, not the cell.
+  bool beside_step = false;
 };
 
 /// The truth on a grid of square cells. Cell (ix, iy) of `lattice` is cells[(iy - origin.iy) * width + ix -

@@ -88,6 +88,9 @@ TEST(Drivable, StepsUpToTAreAndHigherOnesAreNot) {
     EXPECT_EQ(drivable(truth, 1.95, 0.05), passable) << step;  // its border is the step
     EXPECT_EQ(drivable(truth, 3.05, 0.05), passable) << step;  // flat, but reached only over the step
     EXPECT_TRUE(truth.at({3.05, 0.05})->standable);
+    EXPECT_EQ(truth.at({1.95, 0.05})->beside_step, !passable) << step;
+    EXPECT_FALSE(truth.at({1.55, 0.05})->beside_step);
+    EXPECT_FALSE(truth.at({3.05, 0.05})->beside_step);
   }
 }
 
