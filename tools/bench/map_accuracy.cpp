@@ -40,6 +40,13 @@ double shape_square(const std::vector<HeightSample>& samples) {
   return sum;
 }
 
+/// How high the mean of the told poses puts a piece of floor above its place.
+double pose_error_m(std::span<const Pose> T_told_true, const Eigen::Vector3d& floor_m) {
+  double sum_m = 0;
+  for (const Pose& error : T_told_true) sum_m += (error * floor_m - floor_m).z();
+  return T_told_true.empty() ? 0.0 : sum_m / static_cast<double>(T_told_true.size());
+}
+
 bool in_view(const Eigen::Vector2d& place_m, const Pose& T_world_body, const SensorSpec& sensor) {
   const Eigen::Vector3d eye = (T_world_body * sensor.T_body_sensor).translation();
   const Eigen::Vector2d away = place_m - eye.head<2>();
@@ -90,13 +97,16 @@ MapAccuracy see_world(const MapAccuracyOptions& options, std::uint64_t key) {
   Odometry odometry(options.pose_noise, random_key({key, 0x0D0}));
   FrameStack stack(PerceptionSettings{}, MappingSettings{}, robot);
   Pose T_world_body = Pose::Identity();
+  std::vector<Pose> T_told_true;
   for (int frame = 0; frame < options.frames; ++frame) {
     const PlanarState state{{(frame + 1 - options.frames) * kMovePerFrame_m, 0}, {1, 0}};
     T_world_body = body_on_floor(world.scene.fixed, state);
-    stack.see(sensor, sensor.measure(world.scene.fixed, T_world_body, frame), odometry.measure(T_world_body));
+    const Pose told = odometry.measure(T_world_body);
+    T_told_true.push_back(told * T_world_body.inverse());
+    stack.see(sensor, sensor.measure(world.scene.fixed, T_world_body, frame), told);
   }
   MapAccuracy accuracy;
-  judge_map(stack.published(), world.truth, T_world_body, sensor.model(), accuracy);
+  judge_map(stack.published(), world.truth, T_world_body, sensor.model(), T_told_true, accuracy);
   return accuracy;
 }
 
@@ -117,11 +127,12 @@ void MapAccuracy::add(const MapAccuracy& more) {
   unseen += more.unseen;
   heights += more.heights;
   square_m2 += more.square_m2;
+  pose_square_m2 += more.pose_square_m2;
   shape_square_m2 += more.shape_square_m2;
 }
 
 void judge_map(const GridMap& map, const TruthGrid& truth, const Pose& T_world_body, const SensorSpec& sensor,
-               MapAccuracy& accuracy) {
+               std::span<const Pose> T_told_true, MapAccuracy& accuracy) {
   const Lattice& lattice = map.lattice();
   const Eigen::Vector2d body_m = T_world_body.translation().head<2>();
   const CellIndex first = lattice.cell_of(body_m.x() - kRange_m, body_m.y() - kRange_m);
@@ -142,7 +153,9 @@ void judge_map(const GridMap& map, const TruthGrid& truth, const Pose& T_world_b
       if (!cell->drivable || state != VertexState::kFree) continue;
       const GridTile& tile = *map.find(GridMap::tile_of({ix, iy}));
       const double z_m = static_cast<double>(tile.height_m(GridTile::index_of({ix, iy})));
-      samples.push_back({place_m, z_m - static_cast<double>(cell->height_m)});
+      const auto true_m = static_cast<double>(cell->height_m);
+      samples.push_back({place_m, z_m - true_m});
+      accuracy.pose_square_m2 += std::pow(pose_error_m(T_told_true, {place_m.x(), place_m.y(), true_m}), 2);
     }
   }
   accuracy.heights += static_cast<std::int64_t>(samples.size());

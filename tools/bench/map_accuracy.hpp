@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "mapping/grid_map.hpp"
 #include "runtime/geometry/parallel.hpp"
@@ -23,12 +24,12 @@ struct MapAccuracy {
   std::int64_t undrivable_free = 0;    ///< of them
   std::int64_t undrivable_inside = 0;  ///< seen, and none of the eight cells around is drivable
   std::int64_t undrivable_inside_free = 0;
-  std::int64_t in_view = 0;  ///< all cells of the sector that is looked at
-  std::int64_t unseen = 0;   ///< of them
-  std::int64_t heights = 0;  ///< free cells that are drivable
-  double square_m2 = 0;      ///< sum of their squared height errors
-  double shape_square_m2 =
-      0;  ///< the same after each world's mean error plane, which is the poses', is taken out
+  std::int64_t in_view = 0;   ///< all cells of the sector that is looked at
+  std::int64_t unseen = 0;    ///< of them
+  std::int64_t heights = 0;   ///< free cells that are drivable
+  double square_m2 = 0;       ///< sum of their squared height errors
+  double pose_square_m2 = 0;  ///< the same of a map that errs as the mean of the told poses does, and no more
+  double shape_square_m2 = 0;  ///< of the heights after each world's mean error plane is taken out
 
   void add(const MapAccuracy& more);
 };
@@ -41,9 +42,10 @@ struct MapAccuracyOptions {
   std::uint64_t seed = 1;
 };
 
-/// Adds what a map says of the floor in front of a robot. `T_world_body`: where it truly is.
+/// Adds what a map says of the floor in front of a robot. `T_world_body`: where it truly is. `T_told_true`:
+/// of each frame, the pose that was told after the inverse of the true one.
 void judge_map(const GridMap& map, const TruthGrid& truth, const Pose& T_world_body, const SensorSpec& sensor,
-               MapAccuracy& accuracy);
+               std::span<const Pose> T_told_true, MapAccuracy& accuracy);
 
 /// Random worlds seen by a Kinect through perception and mapper, the pose told with noise.
 MapAccuracy measure_map_accuracy(const MapAccuracyOptions& options, Parallel& parallel);

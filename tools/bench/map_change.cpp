@@ -88,7 +88,7 @@ MapChange watch_walk(const MapChangeOptions& options, std::uint64_t key) {
   MapChange change;
   const TruthGrid truth = truth_of(scene, RobotSettings{}, kCell_m, {0, 0});
   MapAccuracy accuracy;
-  judge_map(watch.map(), truth, Pose::Identity(), watch.sensor(), accuracy);
+  judge_map(watch.map(), truth, Pose::Identity(), watch.sensor(), {}, accuracy);
   change.trail = static_cast<double>(accuracy.drivable_blocked) / static_cast<double>(accuracy.drivable);
   change.eroded = std::max(0.0, stood - blocked_share(watch.map(), standing));
   Shapes changed = scene.fixed;

@@ -1,24 +1,17 @@
 #include "tools/bench/steps.hpp"
 
 #include <array>
-#include <memory>
 #include <mutex>
-#include <span>
 #include <stdexcept>
 
-#include "tools/bench/frame_stack.hpp"
+#include "tools/bench/slow_drive.hpp"
 #include "tools/bench/step_check.hpp"
-#include "tools/bench/table1.hpp"
 #include "tools/simulator/random.hpp"
-#include "tools/simulator/raycaster.hpp"
-#include "tools/simulator/vehicle.hpp"
 
 namespace floornav {
 namespace {
 
 constexpr std::array<double, 4> kHeights_m{0.01, 0.02, 0.03, 0.05};
-constexpr int kFrames = 10;
-constexpr double kMovePerFrame_m = 0.02;
 constexpr std::uint64_t kPlainAtOnce = 4;  ///< whatever the number of threads
 
 /// One of the noises, and how many frames the map has seen.
@@ -35,52 +28,11 @@ std::size_t number_of(const View& view) {
 template <class Result>
 using OfViews = std::array<Result, kViews.size()>;
 
-/// A sensor with one noise, and a stack that drives with it.
-class Observer {
- public:
-  Observer(SensorKind kind, bool correlated, std::uint64_t key)
-      : sensor_(bench_sensor(kind, correlated), key), driven_(new_stack()) {}
-
-  void see(std::span<const float> depth, int frame, const Pose& T_world_body) {
-    const auto pixels = sensor_.measure(depth, frame);
-    driven_->see(sensor_, pixels, T_world_body);
-    if (frame + 1 < kFrames) return;
-    single_ = new_stack();
-    single_->see(sensor_, pixels, T_world_body);
-  }
-
-  [[nodiscard]] const SensorSpec& sensor() const { return sensor_.model(); }
-  [[nodiscard]] const GridMap& map(bool single_frame) const {
-    return (single_frame ? single_ : driven_)->published();
-  }
-
- private:
-  [[nodiscard]] std::unique_ptr<FrameStack> new_stack() const {
-    return std::make_unique<FrameStack>(perception_for(sensor_.model().kind, SectionSettings{}),
-                                        MappingSettings{}, RobotSettings{});
-  }
-
-  DepthSensor sensor_;
-  std::unique_ptr<FrameStack> driven_;
-  std::unique_ptr<FrameStack> single_;  ///< sees the last frame alone
-};
-
 /// Drives slowly up to where the course has the robot; calls judge(map) for each view and returns the
 /// answers.
 template <class Judge>
 auto drive_up(const StepCourse& course, SensorKind kind, std::uint64_t key, const Judge& judge) {
-  std::array<Observer, 2> observers{Observer(kind, false, key), Observer(kind, true, key)};
-  const SensorSpec& spec = observers[0].sensor();
-  const Eigen::Vector2d ahead = course.T_world_body.linear().col(0).head<2>().normalized();
-  const Eigen::Vector2d end = course.T_world_body.translation().head<2>();
-  std::vector<float> depth(static_cast<std::size_t>(spec.camera.width) *
-                           static_cast<std::size_t>(spec.camera.height));
-  for (int frame = 0; frame < kFrames; ++frame) {
-    const PlanarState state{end - (kFrames - 1 - frame) * kMovePerFrame_m * ahead, ahead};
-    const Pose T_world_body = body_on_floor(course.shapes, state);
-    cast_depth(course.shapes, spec.camera, T_world_body * spec.T_body_sensor, depth);
-    for (Observer& observer : observers) observer.see(depth, frame, T_world_body);
-  }
+  const auto observers = drive_up_to(course.shapes, course.T_world_body, kind, key, MappingSettings{});
   OfViews<decltype(judge(observers[0].map(true)))> answers;
   for (const View& view : kViews)
     answers[number_of(view)] = judge(observers[view.correlated ? 1 : 0].map(view.single_frame));
@@ -137,7 +89,7 @@ class StepTrials {
         int found = 0;
         for (std::size_t n = h; n < found_.size(); n += kHeights_m.size()) found += found_[n][v][d] ? 1 : 0;
         rows.push_back({kind_, view.correlated, kHeights_m[h], kStepDistances_m[d],
-                        view.single_frame ? 1 : kFrames, options_.poses, found, alarms});
+                        view.single_frame ? 1 : DriveObserver::kFrames, options_.poses, found, alarms});
       }
     }
   }

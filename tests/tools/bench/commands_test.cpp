@@ -37,9 +37,9 @@ TEST(Table1Command, PrintsTheRowsThatBenchmarksReadTheSameOnAnyNumberOfThreads) 
 }
 
 TEST(MappingCommand, PrintsEveryGoalTheSameOnAnyNumberOfThreads) {
-  const std::vector<std::string> words{"floornav-bench", "mapping", "--worlds",        "2", "--frames", "2",
-                                       "--large",        "0",       "--street-frames", "4", "--walks",  "0",
-                                       "--json"};
+  const std::vector<std::string> words{"floornav-bench",   "mapping", "--worlds",        "2", "--frames", "2",
+                                       "--large",          "0",       "--street-frames", "4", "--walks",  "0",
+                                       "--configurations", "0",       "--step-poses",    "0", "--json"};
   const Outcome once = run_program(words);
   ASSERT_EQ(once.exit_code, 0) << once.err;
   auto result = nlohmann::json::parse(once.out);
