@@ -32,11 +32,12 @@ void blend(Surface& memory, const Surface& view, float memory_var_m2) {
 void support(Level& level, const Sighting& sighting, const FusionLimits& limits) {
   const std::int32_t sum = level.support + std::clamp(sighting.points, 1, Level::kPerFrame);
   level.support = static_cast<std::uint8_t>(std::min(sum, Level::kMost));
-  if (!level.column && !sighting.column) {
+  const bool is_alike = level.column == sighting.column && fits(level, sighting, limits);
+  if (is_alike) {
     blend(level, sighting, limits.memory_var_m2);
   } else if (level.column && (!sighting.column || sighting.z_m > level.z_m)) {
     static_cast<Surface&>(level) =
-        sighting;  // a plane tells more than a column; a column is as high as its highest view
+        sighting;  // a plane tells more than a column; of a column a lower view may have seen a part only
   }
 }
 
