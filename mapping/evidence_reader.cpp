@@ -48,7 +48,7 @@ bool EvidenceReader::stands_out(const CellEvidence& cell, const Surface& plane, 
   return cell.top_z_m - cell.mean_z_m > max_step_m_ + rise_m + 3.0F * std::sqrt(point_var_m2(cell));
 }
 
-void EvidenceReader::read(const CellEvidence& cell, const FloorEvidence& evidence, std::int32_t plane_points,
+void EvidenceReader::read(const CellEvidence& cell, const FloorEvidence& evidence, Coverage coverage,
                           std::vector<Sighting>& sightings) const {
   if (cell.points == 0) return;
   Sighting column;
@@ -69,9 +69,8 @@ void EvidenceReader::read(const CellEvidence& cell, const FloorEvidence& evidenc
     sightings.push_back(column);
     return;
   }
-  plane.points = plane_points;
-  plane.in_part = plane_points < cell.points;
-  if (plane_points > 0) sightings.push_back(plane);
+  plane.in_part = coverage != Coverage::kWhole;
+  if (coverage != Coverage::kGlimpse) sightings.push_back(plane);
   if (!stands_out(cell, plane, evidence.lattice.pitch_m)) return;
   column.points = std::min(cell.points, kPointsThatStandOut);
   column.lowest_z_m = cell.top_z_m;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mapping/cell_memory.hpp"
+#include "mapping/view_coverage.hpp"
 #include "perception/evidence.hpp"
 
 namespace floornav {
@@ -18,11 +19,11 @@ class EvidenceReader {
   /// exist.
   [[nodiscard]] static bool is_valid(const CellEvidence& cell, const FloorEvidence& evidence);
 
-  /// Appends what the cell saw; nothing for a cell with sight lines only. A plane counts as `plane_points`,
-  /// and is left out where that is none. A flat surfel is a plane at the mean height of its points, with one
+  /// Appends what the cell saw; nothing for a cell with sight lines only. Of a plane that was hardly
+  /// seen nothing is told. A flat surfel is a plane at the mean height of its points, with one
   /// more surface where single points stand out of it by more than T and their noise (a pole, a cable); a
   /// surfel steeper than 45 degrees, or points on no surfel, are a column up to their top.
-  void read(const CellEvidence& cell, const FloorEvidence& evidence, std::int32_t plane_points,
+  void read(const CellEvidence& cell, const FloorEvidence& evidence, Coverage coverage,
             std::vector<Sighting>& sightings) const;
 
  private:

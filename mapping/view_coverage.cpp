@@ -11,7 +11,7 @@ namespace {
 constexpr double kAround_m = 0.1;
 constexpr float kLeastUpright = 0.87F;  // of a floor's normal's z: 30 degrees
 constexpr float kMostUpright = 0.5F;    // of a side's
-constexpr float kHardlySeen = 0.25F;    // share of the points of the fullest cell around
+constexpr float kHardlySeen = 0.1F;  // share of the points of the fullest cell around
 constexpr float kSeenInPart = 0.4F;  // half a cell is as much as one row of pixels more or less makes of it
 
 /// z of the normal of the plane that decides a cell; 0 where there is none.
@@ -103,16 +103,16 @@ bool ViewCoverage::is_behind_side(const FloorEvidence& evidence, const CellEvide
          floor_z_m + share * (sensor_m_.z() - floor_z_m) + kClearly_m;
 }
 
-std::int32_t ViewCoverage::points_that_count(const FloorEvidence& evidence, std::uint32_t entry) const {
+Coverage ViewCoverage::of(const FloorEvidence& evidence, std::uint32_t entry) const {
   const CellEvidence& cell = evidence.cells[entry];
-  if (upright(cell, evidence) < kLeastUpright) return cell.points;
-  if (is_behind_side(evidence, cell)) return 0;
+  if (upright(cell, evidence) < kLeastUpright) return Coverage::kWhole;
+  if (is_behind_side(evidence, cell)) return Coverage::kGlimpse;
   const CellEvidence& fullest = evidence.cells[fullest_[place_of(cell.cell)].entry];
   const auto all = static_cast<float>(fullest.points);
   const auto seen = static_cast<float>(cell.points);
   if (seen >= kSeenInPart * all || std::abs(above_m(cell, fullest, evidence)) > same_surface_m_)
-    return cell.points;
-  return seen < kHardlySeen * all ? 0 : 1;
+    return Coverage::kWhole;
+  return seen < kHardlySeen * all ? Coverage::kGlimpse : Coverage::kPart;
 }
 
 }  // namespace floornav

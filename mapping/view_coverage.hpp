@@ -8,6 +8,13 @@
 
 namespace floornav {
 
+/// How much of a cell a frame shows.
+enum class Coverage : std::uint8_t {
+  kWhole,
+  kPart,     ///< a good part of it is hidden
+  kGlimpse,  ///< hardly seen, or behind the side of something
+};
+
 /// How fully a frame shows each cell, judged by the points of the cells around it that show the same surface.
 ///
 /// Beside a thing that hides most of a cell a few points of floor are left, and the foot of a wall lies so
@@ -21,9 +28,8 @@ class ViewCoverage {
   /// Takes a frame. `entries`: places in FloorEvidence::cells.
   void take(const FloorEvidence& evidence, std::span<const std::uint32_t> entries);
 
-  /// As how many points a cell's plane counts: all of them, one where the cell is seen in part, none where it
-  /// is hardly seen or lies behind the side of something.
-  [[nodiscard]] std::int32_t points_that_count(const FloorEvidence& evidence, std::uint32_t entry) const;
+  /// Of the plane that decides a cell; things that are no floor count as seen whole.
+  [[nodiscard]] Coverage of(const FloorEvidence& evidence, std::uint32_t entry) const;
 
  private:
   /// A cell's plane; ordered by points.

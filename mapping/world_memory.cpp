@@ -49,7 +49,7 @@ CellView WorldMemory::view_of(const FloorEvidence& evidence, Entries entries) {
     const CellEvidence& cell = evidence.cells[i];
     view.ray_z_m = std::fmin(view.ray_z_m, cell.ray_z_m);
     view.no_return = view.no_return || cell.no_return;
-    reader_.read(cell, evidence, coverage_.points_that_count(evidence, i), sightings_);
+    reader_.read(cell, evidence, coverage_.of(evidence, i), sightings_);
   }
   std::ranges::stable_sort(sightings_, {}, &Sighting::z_m);
   return view;

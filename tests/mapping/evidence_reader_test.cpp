@@ -34,7 +34,8 @@ FloorEvidence floor_with(float top_m, std::int32_t points, float point_sigma_m) 
 
 std::vector<Sighting> sightings_of(const FloorEvidence& evidence) {
   std::vector<Sighting> sightings;
-  EvidenceReader(kViewSigma_m * kViewSigma_m, kMaxStep_m).read(evidence.cells[0], evidence, sightings);
+  EvidenceReader(kViewSigma_m * kViewSigma_m, kMaxStep_m)
+      .read(evidence.cells[0], evidence, Coverage::kWhole, sightings);
   return sightings;
 }
 

@@ -1,5 +1,6 @@
 #include "mapping/view_coverage.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -10,11 +11,12 @@
 namespace floornav {
 namespace {
 
-/// A floor of which one cell shows only some of its 10 points.
+/// A floor of which one cell shows only some of its 40 points.
 FloorEvidence with_points(CellIndex cell, std::int32_t points, double z_m = 0) {
   FloorEvidence frame = see(flat());
   frame.T_body_sensor.translation().z() = 0.7;
   for (CellEvidence& evidence : frame.cells) {
+    evidence.points = 40;
     if (evidence.cell != cell) continue;
     evidence.points = points;
     evidence.mean_z_m = evidence.top_z_m = static_cast<float>(z_m);
@@ -36,54 +38,47 @@ FloorEvidence with_side(FloorEvidence frame, float top_m) {
   return frame;
 }
 
-std::int32_t points_that_count(const FloorEvidence& frame, CellIndex cell) {
+Coverage coverage_of(CellIndex cell, const FloorEvidence& frame) {
   std::vector<std::uint32_t> entries(frame.cells.size());
   std::iota(entries.begin(), entries.end(), 0U);
   ViewCoverage coverage(0.005F);
   coverage.take(frame, entries);
-  for (const std::uint32_t entry : entries)
-    if (frame.cells[entry].cell == cell) return coverage.points_that_count(frame, entry);
-  return -1;
+  const auto it = std::ranges::find(frame.cells, cell, &CellEvidence::cell);
+  return coverage.of(frame, static_cast<std::uint32_t>(it - frame.cells.begin()));
 }
 
 constexpr CellIndex kCell{41, 0};
 
-TEST(ViewCoverage, CellLikeThoseAroundItCountsWhole) {
-  EXPECT_EQ(points_that_count(with_points(kCell, 10), kCell), 10);
-  EXPECT_EQ(points_that_count(with_points(kCell, 5), kCell), 5);
+TEST(ViewCoverage, CellLikeThoseAroundItIsSeenWhole) {
+  EXPECT_EQ(coverage_of(kCell, with_points(kCell, 40)), Coverage::kWhole);
+  EXPECT_EQ(coverage_of(kCell, with_points(kCell, 16)), Coverage::kWhole);
 }
 
-TEST(ViewCoverage, CellSeenInPartCountsOnceAndAGlimpseNotAtAll) {
-  EXPECT_EQ(points_that_count(with_points(kCell, 3), kCell), 1);
-  EXPECT_EQ(points_that_count(with_points(kCell, 2), kCell), 0);
+TEST(ViewCoverage, CellWithFewerPointsIsSeenInPartOrHardly) {
+  EXPECT_EQ(coverage_of(kCell, with_points(kCell, 10)), Coverage::kPart);
+  EXPECT_EQ(coverage_of(kCell, with_points(kCell, 3)), Coverage::kGlimpse);
 }
 
-TEST(ViewCoverage, SmallThingThatStandsOutOfTheFloorCountsWhole) {
-  EXPECT_EQ(points_that_count(with_points(kCell, 2, 0.008), kCell), 2);
-  EXPECT_EQ(points_that_count(with_points(kCell, 2, -0.008), kCell), 2);
+TEST(ViewCoverage, SmallThingThatStandsOutOfTheFloorIsSeenWhole) {
+  EXPECT_EQ(coverage_of(kCell, with_points(kCell, 3, 0.008)), Coverage::kWhole);
+  EXPECT_EQ(coverage_of(kCell, with_points(kCell, 3, -0.008)), Coverage::kWhole);
 }
 
 TEST(ViewCoverage, FloorRightBehindASideIsTheSidesFoot) {
-  EXPECT_EQ(points_that_count(with_side(with_points(kCell, 10), 0.4F), kCell), 0);
-  EXPECT_EQ(points_that_count(with_side(with_points(kCell, 10), 0.4F), {39, 0}), 10);
-  EXPECT_EQ(points_that_count(with_side(with_points({42, 1}, 10), 0.4F), {42, 1}), 10);
+  EXPECT_EQ(coverage_of(kCell, with_side(with_points(kCell, 40), 0.4F)), Coverage::kGlimpse);
+  EXPECT_EQ(coverage_of({39, 0}, with_side(with_points(kCell, 40), 0.4F)), Coverage::kWhole);
+  EXPECT_EQ(coverage_of({42, 1}, with_side(with_points(kCell, 40), 0.4F)), Coverage::kWhole);
 }
 
-TEST(ViewCoverage, TopRightBehindItsOwnSideCountsWhole) {
-  EXPECT_EQ(points_that_count(with_side(with_points(kCell, 10, 0.4), 0.41F), kCell), 10);
+TEST(ViewCoverage, TopRightBehindItsOwnSideIsSeenWhole) {
+  EXPECT_EQ(coverage_of(kCell, with_side(with_points(kCell, 40, 0.4), 0.41F)), Coverage::kWhole);
 }
 
 TEST(ViewCoverage, GlimpsesOfFloorLeaveACellUnknown) {
-  const std::vector<FloorEvidence> frames(20, with_points(kCell, 2));
+  const std::vector<FloorEvidence> frames(20, with_points(kCell, 3));
   const WorldMap map = mapped(frames);
   EXPECT_EQ(map.grid().state(kCell), VertexState::kUnknown);
   EXPECT_EQ(count(map, {}), (Counts{.unknown = 1, .free = 80 * 40 - 1}));
-}
-
-TEST(ViewCoverage, PartOfACellIsFloorWithTheThirdFrame) {
-  const FloorEvidence part = with_points(kCell, 3);
-  EXPECT_EQ(mapped({part, part}).grid().state(kCell), VertexState::kUnknown);
-  EXPECT_EQ(mapped({part, part, part}).grid().state(kCell), VertexState::kFree);
 }
 
 }  // namespace
