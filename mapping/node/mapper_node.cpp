@@ -80,9 +80,13 @@ void MapperNode::accept_pose(const pose_t& pose) {
   const Pose T_world_body = body_pose(pose);
   const PoseJumps::Move move = jumps_.take(pose.utime, T_world_body);
   if (move != PoseJumps::Move::kOld) newest_pose_ = T_world_body;
-  if (move == PoseJumps::Move::kClockStepped) newest_jump_us_.reset();
+  if (move == PoseJumps::Move::kClockStepped) {
+    newest_jump_us_.reset();
+    keeper_.clock_stepped();
+  }
   if (move != PoseJumps::Move::kJump) return;
   newest_jump_us_ = pose.utime;
+  keeper_.jump(pose.utime);
   jumped_ = true;
 }
 
@@ -97,6 +101,7 @@ void MapperNode::start_epoch_if_jumped(Outbox& out) {
   if (!std::exchange(jumped_, false)) return;
   open_.reset();
   schedule_.clear();
+  keeper_.keep_old(world_);
   world_.start_epoch();
   publish_tiles({}, out);
 }
@@ -188,7 +193,7 @@ void MapperNode::report(health_t& health) const {
   if (!trouble_.empty()) worsen(health, health_t::DEGRADED, trouble_);
   if (!keeper_.trouble().empty()) worsen(health, health_t::DEGRADED, "map not saved: " + keeper_.trouble());
   if (keeper_.waits_for_place())
-    worsen(health, health_t::DEGRADED, "the loaded map waits for LOCAL_TO_GLOBAL to know its place");
+    worsen(health, health_t::DEGRADED, "the map of before waits for LOCAL_TO_GLOBAL to know its place");
   if (ticks_without_evidence_ > kTicksUntilStale)
     worsen(health, health_t::DEGRADED, "no SURFELS for a second or more");
 }

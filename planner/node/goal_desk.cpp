@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "runtime/geometry/pose.hpp"
-
 namespace floornav {
 namespace {
 
@@ -43,6 +41,30 @@ bool GoalDesk::accept(const goal_t& message) {
   if (message.id == id_) return false;
   replace(message.id, State::kActive);
   goal_ = {message.pos[0], message.pos[1], static_cast<double>(message.tolerance)};
+  goal_global_m_.reset();
+  anchor();
+  return true;
+}
+
+void GoalDesk::anchor() {
+  if (T_global_local_ && !goal_global_m_)
+    goal_global_m_ = *T_global_local_ * Eigen::Vector3d(goal_.x_m, goal_.y_m, 0);
+}
+
+bool GoalDesk::take(const Pose& T_global_local) {
+  constexpr double kNoticed_m = 0.01;
+  if (state_ != State::kActive || !goal_global_m_) {
+    T_global_local_ = T_global_local;
+    if (state_ == State::kActive) anchor();
+    return false;
+  }
+  const Eigen::Vector2d place_m = (T_global_local.inverse() * *goal_global_m_).head<2>();
+  if (!(place_m.cwiseAbs().maxCoeff() <= kMaxPosition_m))
+    throw std::invalid_argument("LOCAL_TO_GLOBAL: moves the goal to an absurd place");
+  T_global_local_ = T_global_local;
+  if ((place_m - Eigen::Vector2d(goal_.x_m, goal_.y_m)).norm() <= kNoticed_m) return false;
+  goal_.x_m = place_m.x();
+  goal_.y_m = place_m.y();
   return true;
 }
 

@@ -53,6 +53,10 @@ void PlannerNode::subscribe(Inbox& inbox) {
                               [this](const grid_map_t& message, Micros now) { accept_map(message, now); });
   inbox.subscribe<pose_t>(channel::kPose, Keep::kLatest,
                           [this](const pose_t& message, Micros now) { accept_pose(message, now); });
+  inbox.subscribe<rigid_transform_t>(
+      channel::kLocalToGlobal, Keep::kLatest, [this](const rigid_transform_t& message, Micros) {
+        goal_changed_ = goal_.take(pose_from_arrays(message.trans, message.quat)) || goal_changed_;
+      });
   inbox.subscribe<goal_t>(channel::kGoal, Keep::kAll, [this](const goal_t& message, Micros) {
     if (!goal_.accept(message)) return;
     goal_changed_ = true;

@@ -7,6 +7,7 @@
 
 #include "floornav/path_t.hpp"
 #include "floornav/pose_t.hpp"
+#include "floornav/rigid_transform_t.hpp"
 #include "mapping/node/grid_map_message.hpp"
 #include "planner/node/goal_desk.hpp"
 #include "planner/node/speed_estimate.hpp"
@@ -16,9 +17,9 @@
 
 namespace floornav {
 
-/// GRID_MAP, POSE and GOAL in, PATH out: every 80 ms, and at once when a goal comes or goes, the way ahead is
-/// shut or the robot has left it. A stop within 20 ms of the moment when the map or the pose has become
-/// stale, and after a start or a jump of the pose until something around the robot was seen.
+/// GRID_MAP, POSE, GOAL and LOCAL_TO_GLOBAL in, PATH out: every 80 ms, and at once when a goal comes or goes,
+/// the way ahead is shut or the robot has left it. A stop within 20 ms of the moment when the map or the pose
+/// has become stale, and after a start or a jump of the pose until something around the robot was seen.
 class PlannerNode final : public Node {
  public:
   PlannerNode(const PlannerSettings& settings, const RobotSettings& robot);

@@ -118,6 +118,17 @@ TEST_F(KeptMap, WaitsForLocalToGlobalAndLiesWhereThatPutsIt) {
   EXPECT_EQ(placed.grid().state(placed.grid().lattice().cell_of(7.1, 0)), VertexState::kUnknown);
 }
 
+TEST_F(KeptMap, OfBeforeAJumpIsSavedBesideWhereNobodyKnowsItsPlace) {
+  {
+    MapKeeper keeper({.load = {}, .save = folder_ / "map"});
+    keeper.jump(1'000'000);
+    keeper.keep_old(world_);
+    EXPECT_FALSE(keeper.take_loaded());
+  }
+  EXPECT_EQ(to_bytes(load_map(folder_ / "map.before-jump")), to_bytes(world_.memory()));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "map"));
+}
+
 TEST_F(KeptMap, ThatCannotBeSavedSaysWhy) {
   MapKeeper keeper({.load = {}, .save = folder_ / "no" / "map", .save_every_s = 1});
   EXPECT_THROW(keeper.stop(world_), std::runtime_error);

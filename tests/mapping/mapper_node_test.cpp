@@ -243,6 +243,38 @@ TEST(MapperNode, PoseJumpStartsAnEmptyMapAndKeepsOldEvidenceOut) {
   EXPECT_EQ(receiver.map().state({80, 0}), VertexState::kFree);
 }
 
+rigid_transform_t local_to_global(std::int64_t utime_us, double x_m) {
+  rigid_transform_t message{};
+  message.utime = utime_us;
+  message.trans[0] = x_m;
+  message.quat[0] = 1;
+  return message;
+}
+
+TEST(MapperNode, MapComesBackAfterAJumpWhereLocalToGlobalPutsIt) {
+  Rig rig;
+  rig.send(channel::kLocalToGlobal, local_to_global(800'000, 10));
+  rig.pose(900'000, 0);
+  rig.see_frame(see(flat(), {0, 2, -1, 1}));
+  rig.pose(1'000'000, 5);
+  rig.send(channel::kLocalToGlobal, local_to_global(950'000, 10));  // from before the jump
+  rig.tick();
+  GridMapReceiver receiver;
+  apply_all(rig, receiver);
+  EXPECT_TRUE(receiver.map().tiles().empty());
+  EXPECT_NE(rig.health().reason.find("LOCAL_TO_GLOBAL"), std::string::npos);
+  rig.send(channel::kLocalToGlobal, local_to_global(1'050'000, 5));
+  rig.tick(2);
+  apply_all(rig, receiver);
+  const auto state_at = [&](double x_m) {
+    return receiver.map().state(receiver.map().lattice().cell_of(x_m, 0.01));
+  };
+  EXPECT_EQ(state_at(5.1), VertexState::kFree);
+  EXPECT_EQ(state_at(6.9), VertexState::kFree);
+  EXPECT_EQ(state_at(4.9), VertexState::kUnknown);
+  EXPECT_EQ(state_at(1.0), VertexState::kUnknown);
+}
+
 TEST(MapperNode, DriveWithinTheLimitsIsNoJump) {
   Rig rig;
   for (int i = 0; i < 50; ++i) rig.pose(1'000'000 + i * 100'000, 0.1 * i);

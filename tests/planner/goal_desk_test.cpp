@@ -1,6 +1,7 @@
 #include "planner/node/goal_desk.hpp"
 
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -78,6 +79,44 @@ TEST(GoalDesk, RefusesWhatIsNoGoal) {
   goal.tolerance = -1;
   EXPECT_THROW(desk.accept(goal), std::invalid_argument);
   EXPECT_EQ(desk.state(), State::kIdle);
+}
+
+Pose shifted(double x_m, double heading_rad = 0) {
+  Pose pose = Pose::Identity();
+  pose.translate(Eigen::Vector3d(x_m, 0, 0)).rotate(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()));
+  return pose;
+}
+
+TEST(GoalDesk, GoalStaysWhereItIsInTheGlobalFrame) {
+  GoalDesk desk;
+  desk.accept(message(7, goal_t::GO, 2));
+  EXPECT_FALSE(desk.take(shifted(10))) << "the first one tells where the goal lies";
+  EXPECT_FALSE(desk.take(shifted(10.005)));
+  EXPECT_TRUE(desk.take(shifted(9)));
+  EXPECT_NEAR(desk.goal().x_m, 3, 1e-9);
+  EXPECT_TRUE(desk.take(shifted(10, 0.5 * std::numbers::pi)));
+  EXPECT_NEAR(desk.goal().x_m, 0, 1e-9);
+  EXPECT_NEAR(desk.goal().y_m, -2, 1e-9);
+  EXPECT_EQ(desk.goal().tolerance_m, static_cast<double>(0.2F));
+}
+
+TEST(GoalDesk, NewGoalIsAnchoredByTheTransformOfItsDay) {
+  GoalDesk desk;
+  desk.take(shifted(10));
+  desk.accept(message(7, goal_t::GO, 2));
+  desk.take(shifted(11));
+  EXPECT_NEAR(desk.goal().x_m, 1, 1e-9);
+  desk.accept(message(8, goal_t::GO, 5));
+  EXPECT_TRUE(desk.take(shifted(10)));
+  EXPECT_NEAR(desk.goal().x_m, 6, 1e-9);
+}
+
+TEST(GoalDesk, TransformThatMovesTheGoalOutOfTheWorldIsRefused) {
+  GoalDesk desk;
+  desk.accept(message(7, goal_t::GO, 2));
+  desk.take(shifted(0));
+  EXPECT_THROW(desk.take(shifted(1e9)), std::invalid_argument);
+  EXPECT_EQ(desk.goal().x_m, 2);
 }
 
 }  // namespace
