@@ -1,15 +1,21 @@
 #include "mapping/node/terrain_map_message.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "lcmtypes/depth_codec.hpp"
 #include "mapping/node/map_message_size.hpp"
 
 namespace floornav {
 namespace {
+
+constexpr std::int32_t kZeroHeight = 32768;
+static_assert(TerrainTile::kUnknown + kZeroHeight == 0);
+using Codes = std::array<std::uint16_t, TerrainTile::kCells>;
 
 terrain_tile_t to_message(CellIndex index, const TerrainTile& tile) {
   terrain_tile_t message{};
@@ -17,8 +23,12 @@ terrain_tile_t to_message(CellIndex index, const TerrainTile& tile) {
   message.iy = index.iy;
   message.origin_z = tile.origin_z_m;
   message.side = TerrainTile::kSide;
-  message.count = TerrainTile::kCells;
-  message.height.assign(tile.height.begin(), tile.height.end());
+  Codes codes;
+  std::ranges::transform(tile.height, codes.begin(), [](std::int16_t height) {
+    return static_cast<std::uint16_t>(height + kZeroHeight);
+  });
+  encode_rvl(codes, message.heights);
+  message.n_bytes = static_cast<std::int32_t>(message.heights.size());
   return message;
 }
 
@@ -35,6 +45,22 @@ void require(bool condition, const char* what) {
   if (!condition) throw std::invalid_argument(std::string("terrain map: ") + what);
 }
 
+TerrainTile unpacked(const terrain_tile_t& message, std::int64_t version) {
+  TerrainTile tile;
+  tile.version = version;
+  tile.origin_z_m = message.origin_z;
+  Codes codes;
+  try {
+    decode_rvl(message.heights, codes);
+  } catch (const CorruptDepth& error) {
+    require(false, error.what());
+  }
+  std::ranges::transform(codes, tile.height.begin(), [](std::uint16_t code) {
+    return static_cast<std::int16_t>(static_cast<std::int32_t>(code) - kZeroHeight);
+  });
+  return tile;
+}
+
 void check(const terrain_map_t& message) {
   constexpr std::int64_t kFarthestTile = std::numeric_limits<std::int32_t>::max() / TerrainTile::kSide - 1;
   require(message.utime >= 0 && message.epoch >= 0 && message.version >= 0,
@@ -45,9 +71,7 @@ void check(const terrain_map_t& message) {
     require(
         std::abs(std::int64_t{tile.ix}) <= kFarthestTile && std::abs(std::int64_t{tile.iy}) <= kFarthestTile,
         "tile index out of range");
-    require(tile.side == TerrainTile::kSide && tile.count == TerrainTile::kCells &&
-                tile.height.size() == static_cast<std::size_t>(TerrainTile::kCells),
-            "tile of another size");
+    require(tile.side == TerrainTile::kSide, "tile of another size");
     require(std::isfinite(tile.origin_z), "height that is not finite");
   }
 }
@@ -72,6 +96,8 @@ std::vector<terrain_map_t> to_messages(const TerrainMap& map, const std::vector<
 
 void TerrainMapReceiver::apply(const terrain_map_t& message) {
   check(message);
+  std::vector<TerrainTile> tiles;
+  for (const terrain_tile_t& part : message.tiles) tiles.push_back(unpacked(part, message.version));
   const bool same_mapper = started_ && message.session == session_;
   require(!same_mapper || message.epoch >= map_.epoch, "of an older epoch");
   const double resolution_m = std::round(static_cast<double>(message.resolution) * 1e6) / 1e6;
@@ -81,12 +107,8 @@ void TerrainMapReceiver::apply(const terrain_map_t& message) {
   started_ = true;
   map_.epoch = message.epoch;
   map_.version = std::max(map_.version, message.version);
-  for (const terrain_tile_t& part : message.tiles) {
-    TerrainTile& tile = map_.make({part.ix, part.iy});
-    tile.version = message.version;
-    tile.origin_z_m = part.origin_z;
-    std::ranges::copy(part.height, tile.height.begin());
-  }
+  for (std::size_t i = 0; i < tiles.size(); ++i)
+    map_.make({message.tiles[i].ix, message.tiles[i].iy}) = tiles[i];
 }
 
 }  // namespace floornav

@@ -313,8 +313,8 @@ terrain_tile_t sample_message(std::uint32_t seed) {
   m.iy = v.whole(-5, 5);
   m.origin_z = v.real();
   m.side = static_cast<std::int16_t>(v.whole(1, 4));
-  m.count = m.side * m.side;
-  v.fill(m.height, m.count);
+  m.n_bytes = v.whole(1, 16);
+  v.fill(m.heights, m.n_bytes);
   return m;
 }
 

@@ -38,7 +38,7 @@ terrain_map_t sent(terrain_map_t message) {
 }
 
 TEST(TerrainMapMessage, ComesBackAsItWentOut) {
-  const TerrainMap map = random_terrain(40, 1);
+  const TerrainMap map = random_terrain(80, 1);
   TerrainMapReceiver receiver;
   const auto messages = to_messages(map, map.sorted_tiles(), 77);
   EXPECT_GT(messages.size(), 1U);
@@ -46,6 +46,17 @@ TEST(TerrainMapMessage, ComesBackAsItWentOut) {
   ASSERT_EQ(receiver.map().sorted_tiles(), map.sorted_tiles());
   for (const CellIndex index : map.sorted_tiles())
     EXPECT_EQ(receiver.map().find(index)->height, map.find(index)->height);
+}
+
+TEST(TerrainMapMessage, FloorTakesHalfAByteACellAndWhatWasNotSeenAlmostNothing) {
+  std::mt19937 random(3);
+  TerrainMap map(0.2);
+  TerrainTile& floor = map.make({0, 0});
+  for (auto& height : floor.height) height = static_cast<std::int16_t>(random() % 3);
+  map.make({1, 0}).height[5] = 100;
+  const auto bytes = [&](CellIndex tile) { return to_messages(map, {tile}, 77)[0].tiles[0].heights.size(); };
+  EXPECT_LE(bytes({0, 0}), 32U * 32U / 2U + 8U);
+  EXPECT_LE(bytes({1, 0}), 12U);
 }
 
 TEST(TerrainMapMessage, HeightIsInMetresAndUnknownIsNan) {
@@ -73,7 +84,9 @@ TEST(TerrainMapMessage, CorruptOnesAreRefusedAndNothingChanges) {
     EXPECT_EQ(receiver.map().epoch, 0);
     EXPECT_EQ(receiver.map().tiles().size(), 2U);
   };
-  refused([](terrain_map_t& m) { m.tiles[1].height.pop_back(); });
+  refused([](terrain_map_t& m) { m.tiles[1].heights.pop_back(); });
+  refused([](terrain_map_t& m) { m.tiles[1].heights.clear(); });
+  refused([](terrain_map_t& m) { m.tiles[1].heights.push_back(0); });
   refused([](terrain_map_t& m) { m.tiles[1].side = 16; });
   refused([](terrain_map_t& m) { m.tiles[1].ix = std::numeric_limits<std::int32_t>::max(); });
   refused([](terrain_map_t& m) { m.tiles[1].origin_z = std::numeric_limits<float>::quiet_NaN(); });

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mapping/node/terrain_map_message.hpp"
 #include "mapping/world_map.hpp"
 #include "perception/floor_perception.hpp"
 #include "tools/bench/cpu_clock.hpp"
@@ -38,6 +39,24 @@ double area_m2(const GridMap& map) {
   for (const auto& [index, tile] : map.tiles())
     seen += GridTile::kVertices - std::ranges::count(tile->state, VertexState::kUnknown);
   return static_cast<double>(seen) * map.lattice().pitch_m * map.lattice().pitch_m;
+}
+
+/// Bytes of the messages that tell all of a terrain map, for each square metre of it that was seen.
+double terrain_bytes_per_m2(const std::vector<FloorEvidence>& frames, double resolution_m) {
+  MappingSettings settings;
+  settings.terrain_resolution_m = resolution_m;
+  WorldMap map(settings, RobotSettings{});
+  for (const FloorEvidence& frame : frames) map.integrate(frame);
+  map.refresh();
+  map.refresh_terrain();
+  std::int64_t seen = 0;
+  for (const auto& [index, tile] : map.terrain().tiles())
+    seen += TerrainTile::kCells - std::ranges::count(tile->height, TerrainTile::kUnknown);
+  std::int64_t bytes = 0;
+  for (const terrain_map_t& message :
+       to_messages(map.terrain(), map.terrain().sorted_tiles(), map.utime_us()))
+    bytes += message.getEncodedSize();
+  return static_cast<double>(bytes) / (static_cast<double>(seen) * resolution_m * resolution_m);
 }
 
 /// The frame as it would be seen elsewhere, whole cells away.
@@ -150,6 +169,8 @@ FuseCost measure_fuse(const std::vector<FloorEvidence>& frames, int repeats) {
       refresh_ms.push_back(done_ms - fused_ms);
     }
   }
+  cost.terrain_bytes_per_m2 = terrain_bytes_per_m2(frames, 0.2);
+  cost.fine_terrain_bytes_per_m2 = terrain_bytes_per_m2(frames, 0.1);
   cost.fuse_median_ms = quantile_of(fuse_ms, kMedian);
   cost.fuse_p99_ms = quantile_of(fuse_ms, kAlmostAll);
   cost.refresh_median_ms = quantile_of(refresh_ms, kMedian);

@@ -14,6 +14,8 @@ struct FuseCost {
   double fuse_p99_ms = 0;
   double refresh_median_ms = 0;  ///< judging what changed: states, edges
   double refresh_p99_ms = 0;
+  double terrain_bytes_per_m2 = 0;       ///< of TERRAIN_MAP at 0.2 m
+  double fine_terrain_bytes_per_m2 = 0;  ///< at 0.1 m
 };
 
 /// Updates of a robot that drives to and fro in one street of a map of some size.

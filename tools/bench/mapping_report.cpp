@@ -41,6 +41,9 @@ void print_costs(const MappingFigures& f) {
              verdict(f.fuse.fuse_median_ms <= kFuseGoal_ms));
   fmt::print("judge what changed         {:.2f} ms median, {:.2f} p99\n", f.fuse.refresh_median_ms,
              f.fuse.refresh_p99_ms);
+  fmt::print(
+      "terrain map on the wire    {:.1f} bytes a m2 at 0.2 m, {:.1f} at 0.1 m (2 bytes a cell: 50 and 200)\n",
+      f.fuse.terrain_bytes_per_m2, f.fuse.fine_terrain_bytes_per_m2);
   for (const MapSizeCost& size : f.sizes)
     fmt::print(
         "map of {:7.0f} m2          {:.2f} ms an update (mean {:.2f}), {:.0f} bytes a m2 (goal {}: {})\n",
@@ -149,6 +152,7 @@ nlohmann::json json_of(const MappingFigures& f) {
   return {{"fuse_median_ms", f.fuse.fuse_median_ms},
           {"fuse_p99_ms", f.fuse.fuse_p99_ms},
           {"refresh_median_ms", f.fuse.refresh_median_ms},
+          {"terrain_bytes_per_m2", f.fuse.terrain_bytes_per_m2},
           {"sizes", sizes},
           {"drivable_blocked", share(a.drivable_blocked, a.drivable)},
           {"drivable_inside_blocked", share(a.drivable_inside_blocked, a.drivable_inside)},
