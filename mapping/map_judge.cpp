@@ -89,6 +89,7 @@ MapJudge::MapJudge(const MappingSettings& settings, const RobotSettings& robot)
       rule_{static_cast<float>(step_limit_m(robot)), static_cast<float>(settings.resolution_m)},
       reach_(rule_.max_step_m, rule_.resolution_m, static_cast<float>(steepest_rise(robot))),
       floor_(settings.resolution_m),
+      min_belief_(static_cast<float>(settings.min_belief > 0 ? settings.min_belief : least_belief(robot))),
       max_rise_(static_cast<float>(steepest_rise(robot))) {}
 
 bool MapJudge::summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) const {
@@ -143,7 +144,7 @@ bool MapJudge::judge_vertex(const VertexRef& place, float floor_m) {
   }
   const float slope = slope_deg(vertex.surface);
   const float belief_here = belief(vertex.surface.z_m - floor_m, slope);
-  const bool believed = belief_here >= static_cast<float>(settings_.min_belief);
+  const bool believed = belief_here >= min_belief_;
   vertex.set(Vertex::kFree, believed && vertex.is(Vertex::kDrivable) && !vertex.is(Vertex::kCutOff) &&
                                 !is_rim(place, rule_));
   return write_seen(grid, i, vertex, belief_here, slope) || differs;

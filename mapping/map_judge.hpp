@@ -41,7 +41,8 @@ class MapJudge {
   StepRule rule_;
   FloorReach reach_;
   FloorHeight floor_;
-  float max_rise_;  ///< rise per metre of the steepest floor that the robot drives
+  float min_belief_;  ///< section 4.6
+  float max_rise_;    ///< rise per metre of the steepest floor that the robot drives
   std::vector<float> floor_heights_m_;
 };
 
