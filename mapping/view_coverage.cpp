@@ -11,7 +11,7 @@ namespace {
 constexpr double kAround_m = 0.1;
 constexpr float kLeastUpright = 0.87F;  // of a floor's normal's z: 30 degrees
 constexpr float kMostUpright = 0.5F;    // of a side's
-constexpr float kHardlySeen = 0.1F;  // share of the points of the fullest cell around
+constexpr float kHardlySeen = 0.1F;     // share of the points of the fullest cell around
 constexpr float kSeenInPart = 0.4F;  // half a cell is as much as one row of pixels more or less makes of it
 
 /// z of the normal of the plane that decides a cell; 0 where there is none.
