@@ -36,6 +36,14 @@ std::optional<InverseDepthPlane> plane_through(const Eigen::Vector3f& p, const E
 struct ResidualSums {
   float ray_x = 0, ray_y = 0;
   double w = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, r = 0, xr = 0, yr = 0, rr = 0;
+
+  /// Adds sums around the same ray.
+  ResidualSums& operator+=(const ResidualSums& more) {
+    w += more.w, x += more.x, y += more.y, r += more.r;
+    xx += more.xx, xy += more.xy, yy += more.yy;
+    xr += more.xr, yr += more.yr, rr += more.rr;
+    return *this;
+  }
 };
 
 /// Weighted least squares of inverse depth over the ray.

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "perception/pool_pieces.hpp"
+
 // Vectors of a size unknown to the compiler cannot be members: such processors take the next best target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
@@ -137,15 +139,19 @@ PlaneScore score_of(const PlanePool& pool, const InverseDepthPlane& plane, float
 }
 
 PlaneFit fit_inliers(const PlanePool& pool, const InverseDepthPlane& plane, float threshold,
-                     std::span<const float> weights) {
-  constexpr std::size_t kPiece = 4096;  // so that float sums stay exact enough
+                     std::span<const float> weights, Parallel& parallel, std::vector<ResidualSums>& parts) {
+  constexpr std::size_t kPart = 4096;  // so that float sums stay exact enough
   if (pool.size() == 0) return {};
   ResidualSums sums;
   sums.ray_x = pool.ray_x[pool.size() / 2];
   sums.ray_y = pool.ray_y[pool.size() / 2];
-  for (std::size_t begin = 0; begin < pool.size(); begin += kPiece) HWY_DYNAMIC_DISPATCH(fit_piece)
-  (pool, plane, threshold, weights.empty() ? nullptr : weights.data(), begin,
-   std::min(begin + kPiece, pool.size()), sums);
+  parts.assign((pool.size() + kPart - 1) / kPart, sums);
+  for_pieces(pool.size(), parallel, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin; first < end; first += kPart) HWY_DYNAMIC_DISPATCH(fit_piece)
+    (pool, plane, threshold, weights.empty() ? nullptr : weights.data(), first, std::min(first + kPart, end),
+     parts[first / kPart]);
+  });
+  for (const ResidualSums& part : parts) sums += part;
   return PlaneFit(sums, plane);
 }
 

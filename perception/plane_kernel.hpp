@@ -1,9 +1,11 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "perception/inverse_depth_plane.hpp"
 #include "perception/plane_pool.hpp"
+#include "runtime/geometry/parallel.hpp"
 
 namespace floornav {
 
@@ -17,8 +19,9 @@ struct PlaneScore {
 PlaneScore score_of(const PlanePool& pool, const InverseDepthPlane& plane, float threshold);
 
 /// The normal equations of the points within `threshold` sigmas of the plane; each counts as often as
-/// `weights` says, where it is not empty. The same bits whatever the instruction set.
+/// `weights` says, where it is not empty. The same bits whatever the instruction set and the number of
+/// workers. `parts` is scratch memory.
 PlaneFit fit_inliers(const PlanePool& pool, const InverseDepthPlane& plane, float threshold,
-                     std::span<const float> weights);
+                     std::span<const float> weights, Parallel& parallel, std::vector<ResidualSums>& parts);
 
 }  // namespace floornav

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "perception/pixel_blocks.hpp"
+#include "perception/pool_pieces.hpp"
 
 // Vectors of a size unknown to the compiler cannot be members: such processors take the next best target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -23,11 +25,12 @@ using Vector = hn::Vec<Lanes>;
 using Integers = hn::RebindToSigned<Lanes>;
 constexpr std::size_t kLanes = hn::MaxLanes(Lanes());
 
-void distances(const PlanePool& pool, const InverseDepthPlane& plane, float* distance) {
+void distances(const PlanePool& pool, const InverseDepthPlane& plane, std::size_t begin, std::size_t end,
+               float* distance) {
   const Lanes lanes;
-  const std::size_t whole = pool.size() / kLanes * kLanes;
+  const std::size_t whole = begin + (end - begin) / kLanes * kLanes;
   const Vector a = hn::Set(lanes, plane.a), b = hn::Set(lanes, plane.b), c = hn::Set(lanes, plane.c);
-  for (std::size_t i = 0; i < whole; i += kLanes) {
+  for (std::size_t i = begin; i < whole; i += kLanes) {
     const Vector expected = hn::Add(hn::Add(hn::Mul(a, hn::LoadU(lanes, pool.ray_x.data() + i)),
                                             hn::Mul(b, hn::LoadU(lanes, pool.ray_y.data() + i))),
                                     c);
@@ -35,7 +38,7 @@ void distances(const PlanePool& pool, const InverseDepthPlane& plane, float* dis
                                     hn::LoadU(lanes, pool.certainty.data() + i));
     hn::StoreU(hn::Abs(residual), lanes, distance + i);
   }
-  for (std::size_t i = whole; i < pool.size(); ++i) distance[i] = std::abs(pool.residual(i, plane));
+  for (std::size_t i = whole; i < end; ++i) distance[i] = std::abs(pool.residual(i, plane));
 }
 
 /// The same arithmetic on vectors and, for what is left over, on single floats.
@@ -64,16 +67,16 @@ HWY_INLINE hn::Mask<D> within_reach(D lanes, const PlanePool& pool, std::size_t 
 }
 
 void reachable(const PlanePool& pool, const Eigen::Matrix3f& R, const Eigen::Vector3f& sensor,
-               const Reach& reach, float slack_m, Claim* out) {
+               const Reach& reach, float slack_m, std::size_t begin, std::size_t end, Claim* out) {
   const Lanes lanes;
   const hn::CappedTag<float, 1> one;
-  const std::size_t whole = pool.size() / kLanes * kLanes;
-  for (std::size_t i = 0; i < whole; i += kLanes) {
+  const std::size_t whole = begin + (end - begin) / kLanes * kLanes;
+  for (std::size_t i = begin; i < whole; i += kLanes) {
     std::array<std::uint8_t, 8> bits{};
     hn::StoreMaskBits(lanes, within_reach(lanes, pool, i, R, sensor, reach, slack_m), bits.data());
     for (std::size_t k = 0; k < kLanes; ++k) out[i + k] = static_cast<Claim>(bits[0] >> k & 1);
   }
-  for (std::size_t i = whole; i < pool.size(); ++i)
+  for (std::size_t i = whole; i < end; ++i)
     out[i] = hn::AllTrue(one, within_reach(one, pool, i, R, sensor, reach, slack_m)) ? Claim::kPoint
                                                                                      : Claim::kNone;
 }
@@ -98,20 +101,20 @@ HWY_INLINE hn::VFromD<hn::RebindToSigned<D>> claims_of(D lanes, const float* dis
 }
 
 int claims(const PlanePool& pool, const float* distance, float threshold, float noise_end,
-           const std::int32_t* block_states, std::uint8_t* out) {
+           const std::int32_t* block_states, std::size_t begin, std::size_t end, std::uint8_t* out) {
   const Lanes lanes;
   const Integers integers;
   const hn::CappedTag<float, 1> one;
   const hn::Rebind<std::uint8_t, Lanes> bytes;
-  const std::size_t whole = pool.size() / kLanes * kLanes;
+  const std::size_t whole = begin + (end - begin) / kLanes * kLanes;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < whole; i += kLanes) {
+  for (std::size_t i = begin; i < whole; i += kLanes) {
     const auto claim =
         claims_of(lanes, distance + i, pool.block.data() + i, threshold, noise_end, block_states);
     count += hn::CountTrue(integers, hn::Eq(claim, hn::Set(integers, 1)));
     hn::StoreU(hn::DemoteTo(bytes, claim), bytes, out + i);
   }
-  for (std::size_t i = whole; i < pool.size(); ++i) {
+  for (std::size_t i = whole; i < end; ++i) {
     const auto claim =
         claims_of(one, distance + i, pool.block.data() + i, threshold, noise_end, block_states);
     out[i] = static_cast<std::uint8_t>(hn::GetLane(claim));
@@ -182,13 +185,18 @@ HWY_EXPORT(reachable);
 HWY_EXPORT(claims);
 HWY_EXPORT(take_wanted);
 
-void find_distances(const PlanePool& pool, const InverseDepthPlane& plane, std::span<float> distance) {
-  HWY_DYNAMIC_DISPATCH(distances)(pool, plane, distance.data());
+void find_distances(const PlanePool& pool, const InverseDepthPlane& plane, Parallel& parallel,
+                    std::span<float> distance) {
+  for_pieces(pool.size(), parallel, [&](std::size_t begin, std::size_t end) {
+    HWY_DYNAMIC_DISPATCH(distances)(pool, plane, begin, end, distance.data());
+  });
 }
 
 void find_reachable(const PlanePool& pool, const Eigen::Matrix3f& R, const Eigen::Vector3f& sensor,
-                    const Reach& reach, float slack_m, std::span<Claim> reachable) {
-  HWY_DYNAMIC_DISPATCH(reachable)(pool, R, sensor, reach, slack_m, reachable.data());
+                    const Reach& reach, float slack_m, Parallel& parallel, std::span<Claim> reachable) {
+  for_pieces(pool.size(), parallel, [&](std::size_t begin, std::size_t end) {
+    HWY_DYNAMIC_DISPATCH(reachable)(pool, R, sensor, reach, slack_m, begin, end, reachable.data());
+  });
 }
 
 PoolSource source_of(const PlanePool& pool) {
@@ -203,9 +211,14 @@ PoolSource source_of(const PlanePool& pool) {
 }
 
 int find_claims(const PlanePool& pool, std::span<const float> distance, float threshold, float noise_band,
-                std::span<const std::int32_t> block_states, std::span<Claim> claims) {
-  return HWY_DYNAMIC_DISPATCH(claims)(pool, distance.data(), threshold, noise_band * threshold,
-                                      block_states.data(), reinterpret_cast<std::uint8_t*>(claims.data()));
+                std::span<const std::int32_t> block_states, Parallel& parallel, std::span<Claim> claims) {
+  std::atomic<int> count = 0;
+  for_pieces(pool.size(), parallel, [&](std::size_t begin, std::size_t end) {
+    count += HWY_DYNAMIC_DISPATCH(claims)(pool, distance.data(), threshold, noise_band * threshold,
+                                          block_states.data(), begin, end,
+                                          reinterpret_cast<std::uint8_t*>(claims.data()));
+  });
+  return count;
 }
 
 void take_points(const PoolSource& source, std::span<const Claim> claims, Claim wanted, PlanePool& out) {

@@ -8,6 +8,7 @@
 #include "perception/inverse_depth_plane.hpp"
 #include "perception/plane_pool.hpp"
 #include "perception/reach.hpp"
+#include "runtime/geometry/parallel.hpp"
 
 namespace floornav {
 
@@ -15,18 +16,19 @@ namespace floornav {
 enum class Claim : std::uint8_t { kNone, kPoint, kNoise };
 
 /// Writes how far each point of the pool is off the plane, in sigmas.
-void find_distances(const PlanePool& pool, const InverseDepthPlane& plane, std::span<float> distance);
+void find_distances(const PlanePool& pool, const InverseDepthPlane& plane, Parallel& parallel,
+                    std::span<float> distance);
 
 /// Writes kPoint where a point of the pool may lie on floor that the robot can come to, else kNone. `R` turns
 /// the sensor frame level, `sensor` is its place above the body's origin; a point's noise counts three times.
 void find_reachable(const PlanePool& pool, const Eigen::Matrix3f& R, const Eigen::Vector3f& sensor,
-                    const Reach& reach, float slack_m, std::span<Claim> reachable);
+                    const Reach& reach, float slack_m, Parallel& parallel, std::span<Claim> reachable);
 
 /// Of each point: within `threshold` in a block that the plane owns, it is the plane's; up to `noise_band`
 /// times as far off in a block that it mostly owns, it is its noise. `block_states`: see PixelBlocks. Returns
 /// the number of the plane's points.
 int find_claims(const PlanePool& pool, std::span<const float> distance, float threshold, float noise_band,
-                std::span<const std::int32_t> block_states, std::span<Claim> claims);
+                std::span<const std::int32_t> block_states, Parallel& parallel, std::span<Claim> claims);
 
 /// Arrays of points from which some are to be taken.
 struct PoolSource {

@@ -74,11 +74,18 @@ struct Candidate {
   PlaneScore score;
 };
 
-Candidate refined_on_sample(const PlanePool& sample, const PlaneQuery& query, Candidate best) {
+/// Weighted least squares on the points near the plane.
+std::optional<InverseDepthPlane> refine(const PlanePool& pool, const InverseDepthPlane& plane,
+                                        const PlaneQuery& query, Parallel& parallel, RansacScratch& scratch) {
+  return fit_inliers(pool, plane, query.threshold_sigmas, {}, parallel, scratch.parts).solve();
+}
+
+Candidate refined_on_sample(const PlaneQuery& query, Candidate best, Parallel& parallel,
+                            RansacScratch& scratch) {
   for (int i = 0; i < kLocalRefinements; ++i) {
-    const auto plane = refine(sample, best.plane, query.threshold_sigmas);
+    const auto plane = refine(scratch.sample, best.plane, query, parallel, scratch);
     if (!plane || !query.admits(*plane)) break;
-    const PlaneScore score = score_of(sample, *plane, query.threshold_sigmas);
+    const PlaneScore score = score_of(scratch.sample, *plane, query.threshold_sigmas);
     if (score.gain <= best.score.gain) break;
     best = {*plane, score};
   }
@@ -87,13 +94,8 @@ Candidate refined_on_sample(const PlanePool& sample, const PlaneQuery& query, Ca
 
 }  // namespace
 
-std::optional<InverseDepthPlane> refine(const PlanePool& pool, const InverseDepthPlane& plane,
-                                        float threshold_sigmas) {
-  return fit_inliers(pool, plane, threshold_sigmas, {}).solve();
-}
-
 std::optional<InverseDepthPlane> find_plane(const PlanePool& pool, const PlaneQuery& query, Random& random,
-                                            RansacScratch& scratch) {
+                                            Parallel& parallel, RansacScratch& scratch) {
   if (pool.size() < 3) return std::nullopt;
   draw_sample(pool, random, scratch.sample);
   std::optional<Candidate> best;
@@ -106,7 +108,7 @@ std::optional<InverseDepthPlane> find_plane(const PlanePool& pool, const PlaneQu
     const PlaneScore score = score_of(scratch.sample, *plane, query.threshold_sigmas);
     ++scored;
     if (best && score.gain < kWorthRefining * best->score.gain) continue;
-    const Candidate refined = refined_on_sample(scratch.sample, query, {*plane, score});
+    const Candidate refined = refined_on_sample(query, {*plane, score}, parallel, scratch);
     if (best && refined.score.gain <= best->score.gain) continue;
     best = refined;
     needed = std::min(needed, hypotheses_needed(best->score.inliers));
@@ -115,7 +117,7 @@ std::optional<InverseDepthPlane> find_plane(const PlanePool& pool, const PlaneQu
   if (!best) return std::nullopt;
   InverseDepthPlane plane = best->plane;
   for (int i = 0; i < kFinalRefinements; ++i) {
-    const auto refined = refine(pool, plane, query.threshold_sigmas);
+    const auto refined = refine(pool, plane, query, parallel, scratch);
     if (!refined || !query.admits(*refined)) break;
     plane = *refined;
   }

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "perception/inverse_depth_plane.hpp"
 #include "perception/plane_pool.hpp"
 #include "perception/random.hpp"
+#include "runtime/geometry/parallel.hpp"
 
 namespace floornav {
 
@@ -27,7 +29,8 @@ struct PlaneQuery {
 /// Scratch memory of find_plane.
 struct RansacScratch {
   PlanePool sample;
-  std::int64_t hypotheses = 0;  ///< scored so far, in all calls
+  std::vector<ResidualSums> parts;  ///< of a fit
+  std::int64_t hypotheses = 0;      ///< scored so far, in all calls
 };
 
 /// The plane that most points of the pool support: RANSAC with a robust cost (MSAC: the sum of squared
@@ -35,10 +38,6 @@ struct RansacScratch {
 /// hypothesis refined on its inliers, the last one on all of the pool's. Nothing where no admitted plane was
 /// found.
 std::optional<InverseDepthPlane> find_plane(const PlanePool& pool, const PlaneQuery& query, Random& random,
-                                            RansacScratch& scratch);
-
-/// Weighted least squares on the points within `threshold_sigmas` of `plane`.
-std::optional<InverseDepthPlane> refine(const PlanePool& pool, const InverseDepthPlane& plane,
-                                        float threshold_sigmas);
+                                            Parallel& parallel, RansacScratch& scratch);
 
 }  // namespace floornav

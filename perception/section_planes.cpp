@@ -30,6 +30,7 @@ struct SectionPlaneFinder::Search {
   const RoiCloud& cloud;
   const SensorView& view;
   std::span<std::int16_t> label;
+  Parallel& parallel;
   SectionScratch& scratch;
   Random random;
   std::vector<SectionPlane>& planes;
@@ -55,7 +56,7 @@ struct SectionPlaneFinder::Search {
         (view.T_world_sensor.translation() - view.T_world_body.translation()).cast<float>();
     scratch.claims.resize(scratch.pool.size());
     find_reachable(scratch.pool, view.T_world_sensor.linear().cast<float>(), sensor, finder.reach_,
-                   kPointReachSlack_m, scratch.claims);
+                   kPointReachSlack_m, parallel, scratch.claims);
     take_points(source_of(scratch.pool), scratch.claims, Claim::kPoint, scratch.floor_pool);
   }
 
@@ -64,11 +65,11 @@ struct SectionPlaneFinder::Search {
   int claim_points(const PlanePool& pool, const InverseDepthPlane& plane, bool is_floor) {
     scratch.distance.resize(pool.size());
     scratch.claims.resize(pool.size());
-    find_distances(pool, plane, scratch.distance);
+    find_distances(pool, plane, parallel, scratch.distance);
     scratch.blocks.count(pool, scratch.distance, threshold());
     if (!is_floor) scratch.blocks.keep_largest_patch();
     scratch.blocks.judge();
-    return find_claims(pool, scratch.distance, threshold(), kNoiseBand, scratch.blocks.states(),
+    return find_claims(pool, scratch.distance, threshold(), kNoiseBand, scratch.blocks.states(), parallel,
                        scratch.claims);
   }
 
@@ -78,7 +79,8 @@ struct SectionPlaneFinder::Search {
     scratch.weights.resize(pool.size());
     for (std::size_t i = 0; i < pool.size(); ++i)
       scratch.weights[i] = scratch.claims[i] == Claim::kPoint ? 1.0F : 0.0F;
-    const PlaneFit fit = fit_inliers(pool, found, threshold(), scratch.weights);
+    const PlaneFit fit =
+        fit_inliers(pool, found, threshold(), scratch.weights, parallel, scratch.ransac.parts);
     const auto free = fit.solve();
     if (!free) return std::nullopt;
     const SectionPlane settled{*free, fit, is_floor};
@@ -109,7 +111,7 @@ struct SectionPlaneFinder::Search {
     PlanePool& pool = scratch.pool;
     scratch.distance.resize(pool.size());
     scratch.claims.resize(pool.size());
-    find_distances(pool, plane, scratch.distance);
+    find_distances(pool, plane, parallel, scratch.distance);
     for (std::size_t i = 0; i < pool.size(); ++i)
       scratch.claims[i] = scratch.distance[i] > threshold() ? Claim::kNone : Claim::kPoint;
     take_points(source_of(pool), scratch.claims, Claim::kNone, pool);
@@ -122,7 +124,7 @@ struct SectionPlaneFinder::Search {
     query.max_hypotheses = finder.settings_.max_hypotheses;
     query.expected_normal = (view.T_world_sensor.linear().transpose() * normal_world).cast<float>();
     query.cos_tolerance = std::cos(radians(finder.settings_.normal_tolerance_deg));
-    const auto found = find_plane(scratch.floor_pool, query, random, scratch.ransac);
+    const auto found = find_plane(scratch.floor_pool, query, random, parallel, scratch.ransac);
     if (!found) return false;
     const auto settled = settle(scratch.floor_pool, *found, true);
     return settled && query.admits(settled->plane) && claim(*settled);
@@ -136,7 +138,7 @@ struct SectionPlaneFinder::Search {
     if (!planes.empty()) query.expected_normal = planes.front().plane.normal();
     for (int pass = 0; pass < finder.settings_.max_planes; ++pass) {
       if (static_cast<int>(scratch.pool.size()) < finder.settings_.min_points) return;
-      const auto found = find_plane(scratch.pool, query, random, scratch.ransac);
+      const auto found = find_plane(scratch.pool, query, random, parallel, scratch.ransac);
       if (!found) return;
       const auto settled = settle(scratch.pool, *found, false);
       if (!settled || !claim(*settled)) set_aside(*found);
@@ -149,10 +151,10 @@ SectionPlaneFinder::SectionPlaneFinder(const PlaneSettings& settings, const Robo
 
 void SectionPlaneFinder::find(const RoiCloud& cloud, int section, const SensorView& view,
                               const Eigen::Vector3d& floor_normal_world, std::uint64_t seed,
-                              std::span<std::int16_t> label, SectionScratch& scratch,
+                              std::span<std::int16_t> label, Parallel& parallel, SectionScratch& scratch,
                               std::vector<SectionPlane>& planes) const {
   planes.clear();
-  Search search{*this, cloud, view, label, scratch, Random(seed), planes};
+  Search search{*this, cloud, view, label, parallel, scratch, Random(seed), planes};
   search.fill_pool(section);
   search.fill_floor_pool();
   if (!search.find_floor(floor_normal_world)) search.find_floor(Eigen::Vector3d::UnitZ());

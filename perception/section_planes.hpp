@@ -51,7 +51,7 @@ class SectionPlaneFinder {
   /// already) gets each point's index into `planes`.
   void find(const RoiCloud& cloud, int section, const SensorView& view,
             const Eigen::Vector3d& floor_normal_world, std::uint64_t seed, std::span<std::int16_t> label,
-            SectionScratch& scratch, std::vector<SectionPlane>& planes) const;
+            Parallel& parallel, SectionScratch& scratch, std::vector<SectionPlane>& planes) const;
 
  private:
   struct Search;

@@ -35,7 +35,7 @@ void SectionSearch::search(int section, const RoiCloud& cloud, const SensorView&
   if (parallel.workers() == 1) end_stage(PerceptionStage::kOutliers);
   Random seed(static_cast<std::uint64_t>(settings_.planes.seed) ^
               (static_cast<std::uint64_t>(section) << 48) ^ static_cast<std::uint64_t>(utime_us_));
-  plane_finder_.find(cloud, section, view, floor_normal_[s], seed.next(), label_, scratch.planes,
+  plane_finder_.find(cloud, section, view, floor_normal_[s], seed.next(), label_, parallel, scratch.planes,
                      results_[s].planes);
   if (parallel.workers() == 1) end_stage(PerceptionStage::kPlanes);
 }

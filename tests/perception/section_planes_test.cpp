@@ -52,10 +52,11 @@ class SectionScene {
 
   std::vector<SectionPlane> find(std::uint64_t seed, const PlaneSettings& settings = {}) {
     const SensorView view(frame_, Pose::Identity());
+    Serial serial;
     SectionScratch scratch;
     std::vector<SectionPlane> planes;
     SectionPlaneFinder(settings, {})
-        .find(cloud_, 0, view, Eigen::Vector3d::UnitZ(), seed, label_, scratch, planes);
+        .find(cloud_, 0, view, Eigen::Vector3d::UnitZ(), seed, label_, serial, scratch, planes);
     return planes;
   }
 

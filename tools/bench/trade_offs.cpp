@@ -155,7 +155,7 @@ std::pair<double, double> hypotheses_and_ms(const View& view, const Search& sear
     const PlanePool pool = pool_of(cloud, section);
     Random random(static_cast<std::uint64_t>(section) + 1);
     const double began = thread_cpu_ms();
-    find_plane(pool, query, random, scratch);
+    find_plane(pool, query, random, serial, scratch);
     ms += thread_cpu_ms() - began;
   }
   return {static_cast<double>(scratch.hypotheses), ms};
