@@ -10,6 +10,9 @@
 namespace floornav {
 namespace {
 
+/// As perception's settings have it: bounds the memory that the cells of one frame can ask for.
+constexpr double kFinestPitch_m = 0.01;
+
 /// How many lattice cells go along a side of `resolution_m`.
 std::int32_t cells_along(double resolution_m, double pitch_m, const char* name) {
   const double ratio = resolution_m / pitch_m;
@@ -39,7 +42,8 @@ WorldMap::WorldMap(const MappingSettings& settings, const RobotSettings& robot)
 
 void WorldMap::take_lattice(double pitch_m) {
   if (pitch_m == pitch_m_) return;
-  if (!std::isfinite(pitch_m) || pitch_m < 0.001) throw std::invalid_argument("absurd lattice pitch");
+  if (!std::isfinite(pitch_m) || pitch_m < kFinestPitch_m)
+    throw std::invalid_argument("absurd lattice pitch");
   if (pitch_m_ != 0)
     throw std::invalid_argument("lattice pitch changed from " + std::to_string(pitch_m_) + " to " +
                                 std::to_string(pitch_m));

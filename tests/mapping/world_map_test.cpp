@@ -121,6 +121,8 @@ TEST(WorldMap, LatticeThatDoesNotDivideTheResolutionIsRefused) {
   EXPECT_THROW(map.integrate(see(flat(), {}, 0.04)), std::invalid_argument);
   EXPECT_THROW(map.integrate(see(flat(), {0, 1, 0, 1}, 0.2)), std::invalid_argument);
   FloorEvidence absurd;
+  absurd.lattice.pitch_m = 0.001;  // two cells at the ends of such a frame would ask for gigabytes
+  EXPECT_THROW(WorldMap({}, {}).integrate(absurd), std::invalid_argument);
   absurd.lattice.pitch_m = std::nan("");
   EXPECT_THROW(map.integrate(absurd), std::invalid_argument);
   map.integrate(see(flat(), {}, 0.05));
