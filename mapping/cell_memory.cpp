@@ -166,7 +166,7 @@ bool CellMemory::fuse(const CellView& view, const FusionLimits& limits) {
   merge(limits);
   if (!view.sightings.empty()) {
     no_return_frames_ = 0;
-  } else if (view.no_return && no_return_frames_ < 255) {
+  } else if (view.no_return && no_return_frames_ < kMostNoReturnFrames) {
     ++no_return_frames_;
   }
   return doubted || view.no_return || !view.sightings.empty();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -55,10 +56,15 @@ struct FusionLimits {
 /// highest one that the robot would hit (things on the floor, table tops). Those between are not kept.
 class CellMemory {
  public:
+  static constexpr std::int32_t kMostNoReturnFrames = 31;  ///< that are counted
+
   CellMemory() = default;
   /// As it was remembered before.
-  CellMemory(const Level& lower, const Level& upper, float overhead_z_m, std::uint8_t no_return_frames)
-      : lower_(lower), upper_(upper), overhead_z_m_(overhead_z_m), no_return_frames_(no_return_frames) {}
+  CellMemory(const Level& lower, const Level& upper, float overhead_z_m, std::int32_t no_return_frames)
+      : lower_(lower),
+        upper_(upper),
+        overhead_z_m_(overhead_z_m),
+        no_return_frames_(static_cast<std::uint8_t>(std::min(no_return_frames, kMostNoReturnFrames))) {}
 
   /// Fuses one frame. A sighting supports the level that it fits (Kalman filter by both variances, so that
   /// nearer views win) or makes a new one; a few points alone above a floor that is already trusted decide
@@ -82,8 +88,8 @@ class CellMemory {
   void see_through_top();
   [[nodiscard]] const Level& lower() const { return lower_; }
   [[nodiscard]] const Level& upper() const { return upper_; }
-  /// Frames whose rays found no floor here, since one last did; at most 255.
-  [[nodiscard]] int no_return_frames() const { return no_return_frames_; }
+  /// Frames whose rays found no floor here, since one last did; at most kMostNoReturnFrames.
+  [[nodiscard]] std::int32_t no_return_frames() const { return no_return_frames_; }
   /// Lowest thing seen above the robot's height; NaN: none.
   [[nodiscard]] float overhead_z_m() const { return overhead_z_m_; }
   void see_overhead(float z_m) { overhead_z_m_ = std::fmin(overhead_z_m_, z_m); }

@@ -32,8 +32,8 @@ std::vector<CommonCell> common_cells(const FloorEvidence& frame, const MapTiles&
   for (const CellEvidence& cell : frame.cells) {
     if (cell.points < Level::kTrusted || cell.surfel < 0 || !EvidenceReader::is_valid(cell, frame)) continue;
     if (std::abs(frame.surfels[static_cast<std::size_t>(cell.surfel)].normal.z()) < kLeastUpright) continue;
-    const CellMemory* const memory = map.find_cell(cell.cell);
-    const Surface* const surface = memory ? memory->decider() : nullptr;
+    const CellMemory memory = map.cell(cell.cell);
+    const Surface* const surface = memory.decider();
     if (surface == nullptr || surface->column) continue;
     const double above_m = static_cast<double>(cell.mean_z_m - surface->z_m);
     if (std::abs(above_m) > kFarthest_m) continue;

@@ -94,11 +94,11 @@ MapJudge::MapJudge(const MappingSettings& settings, const RobotSettings& robot)
 
 bool MapJudge::summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) const {
   const std::size_t per_vertex = tile.cells.size() / tile.vertices.size();
-  std::vector<const CellMemory*> cells(per_vertex);
+  std::vector<CellMemory> cells(per_vertex);
   bool differs = tile.grid == nullptr;
   for (std::size_t i = 0; i < tile.vertices.size(); ++i) {
     if (!tile.touched[i]) continue;
-    for (std::size_t c = 0; c < per_vertex; ++c) cells[c] = &tile.cells[i * per_vertex + c];
+    for (std::size_t c = 0; c < per_vertex; ++c) cells[c] = tile.cells.at(i * per_vertex + c);
     differs |= take_summary(cells, cells_per_vertex, tile.vertices[i]);
     if (tile.grid != nullptr) tile.grid->seen[i] = tile.vertices[i].seen;
   }
@@ -106,14 +106,13 @@ bool MapJudge::summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) c
   return differs;
 }
 
-bool MapJudge::take_summary(std::span<const CellMemory* const> cells, std::int32_t side,
-                            Vertex& vertex) const {
+bool MapJudge::take_summary(std::span<const CellMemory> cells, std::int32_t side, Vertex& vertex) const {
   const Vertex before = vertex;
-  int no_return_frames = 0;
+  std::int32_t no_return_frames = 0;
   float overhead_z_m = std::numeric_limits<float>::quiet_NaN();
-  for (const CellMemory* cell : cells) {
-    overhead_z_m = std::fmin(overhead_z_m, cell->overhead_z_m());
-    no_return_frames = std::max(no_return_frames, cell->no_return_frames());
+  for (const CellMemory& cell : cells) {
+    overhead_z_m = std::fmin(overhead_z_m, cell.overhead_z_m());
+    no_return_frames = std::max(no_return_frames, cell.no_return_frames());
   }
   const float pitch_m = rule_.resolution_m / static_cast<float>(side);
   const SquareSummary summary = summarise(cells, side, pitch_m, rule_.max_step_m);

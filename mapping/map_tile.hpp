@@ -4,9 +4,8 @@
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
-#include "mapping/cell_memory.hpp"
+#include "mapping/cell_store.hpp"
 #include "mapping/grid_map.hpp"
 #include "mapping/vertex.hpp"
 
@@ -19,7 +18,7 @@ struct MapTile {
 
   CellIndex index;
   std::array<MapTile*, 8> neighbours{};  ///< as kNeighbourX, kNeighbourY; null where there is none yet
-  std::vector<CellMemory> cells;         ///< vertex by vertex; those of a vertex row by row along x
+  CellStore cells;                       ///< vertex by vertex; those of a vertex row by row along x
   std::array<Vertex, GridTile::kVertices> vertices{};
   std::array<std::uint8_t, GridTile::kVertices>
       steps_open{};                          ///< bit k as GridTile::edges, even k only: by heights alone
@@ -30,7 +29,7 @@ struct MapTile {
   GridTile* grid = nullptr;                  ///< what is published of it
 
   [[nodiscard]] std::int64_t memory_bytes() const {
-    return static_cast<std::int64_t>(sizeof(MapTile) + cells.size() * sizeof(CellMemory));
+    return static_cast<std::int64_t>(sizeof(MapTile) + cells.memory_bytes());
   }
 };
 

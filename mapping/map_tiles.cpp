@@ -45,12 +45,17 @@ MapTile* MapTiles::find(CellIndex tile) const {
   return last_found_;
 }
 
-MapTile& MapTiles::make(CellIndex tile) {
+MapTile& MapTiles::make(CellIndex tile, double level_m) {
   if (MapTile* const known = find(tile)) return *known;
+  MapTile& made = add(tile);
+  made.cells = CellStore(cells_per_tile(), level_m);
+  return made;
+}
+
+MapTile& MapTiles::add(CellIndex tile) {
   auto& slot = tiles_[tile];
   slot = std::make_unique<MapTile>();
   slot->index = tile;
-  slot->cells.resize(cells_per_tile());
   for (std::size_t k = 0; k < 8; ++k) {
     MapTile* const beside = find({tile.ix + kNeighbourX[k], tile.iy + kNeighbourY[k]});
     if (beside == nullptr) continue;
@@ -68,8 +73,8 @@ void MapTiles::clear() {
 
 MapTile& MapTiles::wake(CellIndex tile) {
   const std::vector<std::uint8_t> bytes = std::move(resting_.extract(tile).mapped());
-  MapTile& woken = make(tile);
-  unpack(bytes, woken);
+  MapTile& woken = add(tile);
+  unpack(bytes, cells_per_tile(), woken);
   woken.touched.set();
   woken.floor_is_known = true;
   return woken;
@@ -131,8 +136,7 @@ std::vector<std::pair<CellIndex, std::vector<std::uint8_t>>> MapTiles::packed() 
 void MapTiles::add_resting(CellIndex tile, std::vector<std::uint8_t> bytes) {
   if (find(tile) != nullptr || is_resting(tile)) throw std::invalid_argument("the same tile twice");
   MapTile trial;
-  trial.cells.resize(cells_per_tile());
-  unpack(bytes, trial);
+  unpack(bytes, cells_per_tile(), trial);
   resting_[tile] = std::move(bytes);
 }
 
@@ -153,9 +157,9 @@ CellIndex MapTiles::cell_at(const MapTile& tile, std::size_t slot) const {
           (tile.index.iy * MapTile::kSide + vertex / MapTile::kSide) * side + within / side};
 }
 
-const CellMemory* MapTiles::find_cell(CellIndex cell) const {
+CellMemory MapTiles::cell(CellIndex cell) const {
   const MapTile* const tile = find(GridMap::tile_of(vertex_of(cell)));
-  return tile ? &tile->cells[slot_of(cell)] : nullptr;
+  return tile ? tile->cells.at(slot_of(cell)) : CellMemory{};
 }
 
 VertexRef MapTiles::find_vertex(CellIndex vertex) const {

@@ -23,8 +23,8 @@ class MapTiles {
 
   /// Null where there is none, or it rests.
   [[nodiscard]] MapTile* find(CellIndex tile) const;
-  /// Made where there is none yet; not for one that rests.
-  MapTile& make(CellIndex tile);
+  /// Made where there is none yet, for heights around `level_m`; not for one that rests.
+  MapTile& make(CellIndex tile, double level_m);
   void clear();
 
   /// Packs the tiles that lie wholly outside of a circle and have no evidence that is not judged yet.
@@ -50,8 +50,8 @@ class MapTiles {
   [[nodiscard]] std::size_t slot_of(CellIndex cell) const;
   /// The lattice cell at a place in a tile's MapTile::cells.
   [[nodiscard]] CellIndex cell_at(const MapTile& tile, std::size_t slot) const;
-  /// Null where there is no tile.
-  [[nodiscard]] const CellMemory* find_cell(CellIndex cell) const;
+  /// Nothing remembered where there is no tile.
+  [[nodiscard]] CellMemory cell(CellIndex cell) const;
   /// False where there is no tile.
   [[nodiscard]] VertexRef find_vertex(CellIndex vertex) const;
 
@@ -63,6 +63,7 @@ class MapTiles {
     return static_cast<std::size_t>(cells_per_vertex_) * static_cast<std::size_t>(cells_per_vertex_) *
            GridTile::kVertices;
   }
+  MapTile& add(CellIndex tile);
   MapTile& wake(CellIndex tile);
 
   std::unordered_map<CellIndex, std::unique_ptr<MapTile>> tiles_;

@@ -59,7 +59,7 @@ class MemoryMover {
         const CellIndex cell{first.ix + x * step, first.iy + y * step};
         const CellIndex at = GridMap::tile_of(after_.vertex_of(cell_at(motion_(center_m(cell)))));
         for (std::int32_t dy = -1; dy <= 1; ++dy)
-          for (std::int32_t dx = -1; dx <= 1; ++dx) after_.make({at.ix + dx, at.iy + dy});
+          for (std::int32_t dx = -1; dx <= 1; ++dx) after_.make({at.ix + dx, at.iy + dy}, 0);
       }
     }
   }
@@ -78,20 +78,22 @@ class MemoryMover {
   /// False where nothing was known.
   bool fill(MapTile& tile) {
     bool known = false;
+    std::vector<CellMemory> cells(tile.cells.size());
     const std::size_t per_vertex = tile.cells.size() / tile.vertices.size();
     for (std::size_t slot = 0; slot < tile.cells.size(); ++slot) {
       const Eigen::Vector2d place_m = motion_.back(center_m(after_.cell_at(tile, slot)));
       const CellIndex old = cell_at(place_m);
-      const CellMemory* const cell = before_.find_cell(old);
-      if (cell == nullptr) continue;
+      const VertexRef old_vertex = before_.find_vertex(before_.vertex_of(old));
+      if (!old_vertex) continue;
+      const CellMemory cell = before_.cell(old);
       const Eigen::Vector2d from_center_m = place_m - center_m(old);
-      tile.cells[slot] = {moved(cell->lower(), from_center_m), moved(cell->upper(), from_center_m),
-                          cell->overhead_z_m() + static_cast<float>(motion_.shift_m.z()),
-                          static_cast<std::uint8_t>(cell->no_return_frames())};
+      cells[slot] = {moved(cell.lower(), from_center_m), moved(cell.upper(), from_center_m),
+                     cell.overhead_z_m() + static_cast<float>(motion_.shift_m.z()), cell.no_return_frames()};
       Vertex& vertex = tile.vertices[slot / per_vertex];
-      vertex.seen = std::max(vertex.seen, before_.find_vertex(before_.vertex_of(old)).vertex().seen);
-      known = known || cell->lower().exists() || cell->no_return_frames() > 0;
+      vertex.seen = std::max(vertex.seen, old_vertex.vertex().seen);
+      known = known || cell.lower().exists() || cell.no_return_frames() > 0;
     }
+    tile.cells = CellStore(cells);
     return known;
   }
 

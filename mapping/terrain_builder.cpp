@@ -31,7 +31,7 @@ void TerrainBuilder::touch(CellIndex grid_tile, double grid_resolution_m, const 
 bool TerrainBuilder::summarise_tile(CellIndex index, const MapTiles& tiles, std::int32_t cells_per_height,
                                     float max_step_m, TerrainMap& terrain) {
   const auto pitch_m = static_cast<float>(terrain.lattice().pitch_m / cells_per_height);
-  std::vector<const CellMemory*> cells;
+  std::vector<CellMemory> cells;
   TerrainTile& tile = terrain.make(index);
   bool differs = false;
   for (std::int32_t i = 0; i < TerrainTile::kCells; ++i) {
@@ -43,7 +43,7 @@ bool TerrainBuilder::summarise_tile(CellIndex index, const MapTiles& tiles, std:
     };
     if (rests(ix, iy) || rests(ix + cells_per_height - 1, iy + cells_per_height - 1)) continue;
     for (std::int32_t c = 0; c < cells_per_height * cells_per_height; ++c)
-      cells.push_back(tiles.find_cell({ix + c % cells_per_height, iy + c / cells_per_height}));
+      cells.push_back(tiles.cell({ix + c % cells_per_height, iy + c / cells_per_height}));
     const SquareSummary summary = summarise(cells, cells_per_height, pitch_m, max_step_m);
     if (tile.version == 0 && summary.seen && !differs) tile.origin_z_m = std::round(summary.surface.z_m);
     std::int16_t& height = tile.height[static_cast<std::size_t>(i)];

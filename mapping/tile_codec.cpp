@@ -123,26 +123,28 @@ CellMemory read_cell(PreviousCell& previous, ByteReader& in) {
 }
 
 /// Runs of empty and of other cells, in turn.
-void write_cells(const std::vector<CellMemory>& cells, ByteWriter& out) {
+void write_cells(const CellStore& cells, ByteWriter& out) {
   PreviousCell previous;
   for (std::size_t i = 0; i < cells.size();) {
     std::size_t begin = i;
-    while (i < cells.size() && parts_of(cells[i]) == 0) ++i;
+    while (i < cells.size() && cells.is_empty(i)) ++i;
     out.count(i - begin);
     begin = i;
-    while (i < cells.size() && parts_of(cells[i]) != 0) ++i;
+    while (i < cells.size() && !cells.is_empty(i)) ++i;
     out.count(i - begin);
-    for (; begin < i; ++begin) write_cell(cells[begin], previous, out);
+    for (; begin < i; ++begin) write_cell(cells.at(begin), previous, out);
   }
 }
 
-void read_cells(std::vector<CellMemory>& cells, ByteReader& in) {
+CellStore read_cells(std::size_t count, ByteReader& in) {
+  std::vector<CellMemory> cells(count);
   PreviousCell previous;
   for (std::size_t i = 0; i < cells.size();) {
-    for (std::size_t empty = in.count(cells.size() - i); empty > 0; --empty) cells[i++] = CellMemory{};
+    i += in.count(cells.size() - i);
     for (std::size_t full = in.count(cells.size() - i); full > 0; --full)
       cells[i++] = read_cell(previous, in);
   }
+  return CellStore(cells);
 }
 
 /// Runs of vertices that share a value, each as its length and what `write(value)` tells.
@@ -198,9 +200,9 @@ std::vector<std::uint8_t> pack(const MapTile& tile) {
   return bytes;
 }
 
-void unpack(std::span<const std::uint8_t> bytes, MapTile& tile) {
+void unpack(std::span<const std::uint8_t> bytes, std::size_t cells, MapTile& tile) {
   ByteReader in(bytes);
-  read_cells(tile.cells, in);
+  tile.cells = read_cells(cells, in);
   read_vertices(tile, in);
   if (!in.empty()) throw std::invalid_argument("more bytes than a tile has");
 }

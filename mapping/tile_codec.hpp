@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,8 +14,8 @@ namespace floornav {
 /// tile follows from these. Packing what was unpacked gives the same bytes.
 std::vector<std::uint8_t> pack(const MapTile& tile);
 
-/// The inverse, into a tile whose `cells` have their size; its vertices are left to be summarised. Throws
-/// std::invalid_argument for bytes that pack() does not make.
-void unpack(std::span<const std::uint8_t> bytes, MapTile& tile);
+/// The inverse, into a tile of `cells`; its vertices are left to be summarised. Throws std::invalid_argument
+/// for bytes that pack() does not make.
+void unpack(std::span<const std::uint8_t> bytes, std::size_t cells, MapTile& tile);
 
 }  // namespace floornav

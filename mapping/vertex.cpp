@@ -59,17 +59,16 @@ bool differs_noticeably(const Surface& surface, const Surface& known) {
          surface.var_m2 > kVariance * known.var_m2 || known.var_m2 > kVariance * surface.var_m2;
 }
 
-SquareSummary summarise(std::span<const CellMemory* const> cells, std::int32_t side, float pitch_m,
-                        float step_m) {
+SquareSummary summarise(std::span<const CellMemory> cells, std::int32_t side, float pitch_m, float step_m) {
   SquareSummary summary;
   MeanSurface planes;
   Surface highest;
   Surface lowest;
   const Surface* highest_in_place = nullptr;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Surface* decider = cells[i] ? cells[i]->decider() : nullptr;
+    const Surface* decider = cells[i].decider();
     if (decider == nullptr) continue;
-    summary.stepped = summary.stepped || cells[i]->is_stepped(step_m);
+    summary.stepped = summary.stepped || cells[i].is_stepped(step_m);
     const Surface surface = at_center(*decider, i, side, pitch_m);
     if (!summary.seen || surface.z_m > highest.z_m) {
       highest = surface;

@@ -81,13 +81,16 @@ void WorldMemory::take_cell(const FloorEvidence& evidence, Entries entries, cons
   const CellIndex vertex = tiles.vertex_of(cell);
   CellView view = view_of(evidence, entries);
   const bool only_clears = sightings_.empty() && !view.no_return;
+  const CellIndex place = GridMap::tile_of(vertex);
   MapTile* const tile =
-      only_clears ? tiles.find(GridMap::tile_of(vertex)) : &tiles.make(GridMap::tile_of(vertex));
+      only_clears ? tiles.find(place) : &tiles.make(place, evidence.T_world_body.translation().z());
   if (tile == nullptr) return;
-  CellMemory& memory = tile->cells[tiles.slot_of(cell)];
+  const std::size_t slot = tiles.slot_of(cell);
+  CellMemory memory = tile->cells.at(slot);
   const bool overhead = split_overhead(memory, overhead_limit_m(evidence, cell, vertex, floor));
   view.sightings = sightings_;
   if (!memory.fuse(view, limits_) && !overhead) return;
+  tile->cells.set(slot, memory);
   const std::size_t index = GridMap::index_of(vertex);
   touch(*tile, index);
   tile->high_tops = tile->high_tops || memory.has_high_top();
@@ -105,10 +108,12 @@ void WorldMemory::lift(const HeightError& by, const Lattice& lattice, MapTiles& 
     MapTile& tile = *tiles.find(index);
     const std::size_t per_vertex = tile.cells.size() / tile.vertices.size();
     for (std::size_t slot = 0; slot < tile.cells.size(); ++slot) {
-      if (!tile.cells[slot].lower().exists() && std::isnan(tile.cells[slot].overhead_z_m())) continue;
+      CellMemory memory = tile.cells.at(slot);
+      if (!memory.lower().exists() && std::isnan(memory.overhead_z_m())) continue;
       const CellIndex cell = tiles.cell_at(tile, slot);
       const auto by_m = static_cast<float>(by.at(lattice.center_of(cell.ix), lattice.center_of(cell.iy)));
-      tile.cells[slot].lift(by_m, rise.x(), rise.y());
+      memory.lift(by_m, rise.x(), rise.y());
+      tile.cells.set(slot, memory);
       touch(tile, slot / per_vertex);
     }
   }
@@ -116,8 +121,8 @@ void WorldMemory::lift(const HeightError& by, const Lattice& lattice, MapTiles& 
 
 void WorldMemory::take_woken(MapTile& tile) {
   touched_.push_back(tile.index);
-  tile.high_tops =
-      std::ranges::any_of(tile.cells, [](const CellMemory& cell) { return cell.has_high_top(); });
+  for (std::size_t slot = 0; slot < tile.cells.size(); ++slot)
+    tile.high_tops = tile.high_tops || (tile.cells.has_more(slot) && tile.cells.at(slot).has_high_top());
 }
 
 /// Whether this frame saw a surface about this high in a cell.
@@ -136,7 +141,8 @@ void WorldMemory::see_through_tops(const FloorEvidence& evidence, const Eigen::V
   constexpr double kLeastAbove_m = 0.05;
   const Lattice& lattice = evidence.lattice;
   for (std::size_t slot = 0; slot < tile.cells.size(); ++slot) {
-    CellMemory& memory = tile.cells[slot];
+    if (!tile.cells.has_more(slot)) continue;
+    CellMemory memory = tile.cells.at(slot);
     if (!memory.has_high_top()) continue;
     const double above_top_m = sensor_m.z() - static_cast<double>(memory.upper().z_m);
     if (above_top_m < kLeastAbove_m) continue;
@@ -147,6 +153,7 @@ void WorldMemory::see_through_tops(const FloorEvidence& evidence, const Eigen::V
     if (!saw(evidence, lattice.cell_of(floor_m.x(), floor_m.y()), memory.lower().z_m)) continue;
     if (saw(evidence, cell, memory.upper().z_m)) continue;
     memory.see_through_top();
+    tile.cells.set(slot, memory);
     touch(tile, slot / (tile.cells.size() / tile.vertices.size()));
   }
 }

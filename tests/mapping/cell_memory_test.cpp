@@ -180,7 +180,7 @@ TEST(CellMemory, TableTopFirstFloorBelowLater) {
 TEST(CellMemory, NoReturnCountsUntilSomethingIsSeen) {
   CellMemory memory;
   for (int view = 0; view < 300; ++view) memory.fuse({.sightings = {}, .no_return = true}, kLimits);
-  EXPECT_EQ(memory.no_return_frames(), 255);
+  EXPECT_EQ(memory.no_return_frames(), CellMemory::kMostNoReturnFrames);
   fuse(memory, {plane(0)});
   EXPECT_EQ(memory.no_return_frames(), 0);
 }

@@ -58,34 +58,36 @@ INSTANTIATE_TEST_SUITE_P(Seeds, RandomTiles, testing::Range(1U, 9U));
 TEST_P(RandomTiles, ComeBackToWithinTheUnitsOfThePackingAndPackTheSameAgain) {
   std::mt19937 random(GetParam());
   MapTile tile;
-  tile.cells.resize(GridTile::kVertices);
+  tile.cells = CellStore(GridTile::kVertices, 0);
   for (std::size_t i = 0; i < tile.cells.size(); ++i) {
     if (random() % 3 == 0) continue;
     const Level upper = random() % 4 == 0 ? random_level(random) : Level{};
     const float overhead_m = random() % 5 == 0 ? 1.2F : std::numeric_limits<float>::quiet_NaN();
-    tile.cells[i] = {random_level(random), upper, overhead_m, static_cast<std::uint8_t>(random() % 4)};
+    const auto no_return_frames = static_cast<std::int32_t>(random() % 4);
+    tile.cells.set(i, {random_level(random), upper, overhead_m, no_return_frames});
     tile.vertices[i].seen = static_cast<std::uint32_t>(random() % 5);
     tile.vertices[i].set(Vertex::kFloor, random() % 2 == 0);
   }
   const std::vector<std::uint8_t> bytes = pack(tile);
   MapTile back;
-  back.cells.resize(tile.cells.size());
-  unpack(bytes, back);
+  unpack(bytes, tile.cells.size(), back);
   for (std::size_t i = 0; i < tile.cells.size(); ++i) {
+    const CellMemory cell_before = tile.cells.at(i);
+    const CellMemory cell_after = back.cells.at(i);
     for (const auto level : {&CellMemory::lower, &CellMemory::upper}) {
-      const Level& before = (tile.cells[i].*level)();
-      const Level& after = (back.cells[i].*level)();
+      const Level& before = (cell_before.*level)();
+      const Level& after = (cell_after.*level)();
       ASSERT_EQ(after.support, before.support);
       ASSERT_EQ(after.column, before.column);
       ASSERT_NEAR(after.z_m, before.z_m, 0.51e-4);
-      ASSERT_NEAR(after.gradient_x, before.gradient_x, 0.51 / 1024);
+      ASSERT_NEAR(after.gradient_x, before.gradient_x, 0.51 / 1024);  // the store's own units are finer
       ASSERT_NEAR(after.gradient_y, before.gradient_y, 0.51 / 1024);
       if (before.exists()) {
-        ASSERT_NEAR(after.var_m2 / before.var_m2, 1, 0.05);
+        ASSERT_NEAR(after.var_m2 / before.var_m2, 1, 0.08);
       }
     }
-    ASSERT_EQ(std::isnan(back.cells[i].overhead_z_m()), std::isnan(tile.cells[i].overhead_z_m()));
-    ASSERT_EQ(back.cells[i].no_return_frames(), tile.cells[i].no_return_frames());
+    ASSERT_EQ(std::isnan(cell_after.overhead_z_m()), std::isnan(cell_before.overhead_z_m()));
+    ASSERT_EQ(cell_after.no_return_frames(), cell_before.no_return_frames());
     ASSERT_EQ(back.vertices[i].seen, tile.vertices[i].seen);
     ASSERT_EQ(back.vertices[i].is(Vertex::kFloor), tile.vertices[i].is(Vertex::kFloor));
   }
@@ -100,9 +102,8 @@ TEST_P(RandomTiles, BytesThatAreNoTileAreRefusedOrReadButNeverHarm) {
     for (int k = 0; k < 3; ++k) bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
     if (trial % 4 == 0) bytes.resize(random() % bytes.size());
     MapTile tile;
-    tile.cells.resize(GridTile::kVertices);
     try {
-      unpack(bytes, tile);
+      unpack(bytes, GridTile::kVertices, tile);
     } catch (const std::invalid_argument&) {
     }
   }

@@ -22,7 +22,7 @@ CellMemory cell(float z_m, float rise_per_m) {
 
 /// Of 2 x 2 cells: two at the left, two at the right.
 SquareSummary square(const CellMemory& left, const CellMemory& right) {
-  const std::array<const CellMemory*, 4> cells{&left, &right, &left, &right};
+  const std::array<CellMemory, 4> cells{left, right, left, right};
   return summarise(cells, 2, kPitch_m, kStep_m);
 }
 
@@ -40,7 +40,7 @@ TEST(SquareOfCells, AcrossAnEdgeIsAsHighAsTheHighestCellInItsPlace) {
 }
 
 TEST(SquareOfCells, NeverSeenHasNoSurface) {
-  const std::array<const CellMemory*, 4> cells{};
+  const std::array<CellMemory, 4> cells{};
   EXPECT_FALSE(summarise(cells, 2, kPitch_m, kStep_m).seen);
 }
 

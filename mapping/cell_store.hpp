@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mapping/cell_memory.hpp"
+
+namespace floornav {
+
+/// The lattice cells of a tile in 8 bytes each; what few cells have - an upper level, something overhead -
+/// lies beside them.
+///
+/// Heights are kept in steps of 15 um (so that the small gain of a far view still moves them) up to
+/// kReach_m above and below the level that the store was made for; what is farther is kept at that distance.
+/// Rises of planes are kept to 1/2048 up to 1, of columns to 1/32 up to 64, variances to 3 %.
+class CellStore {
+ public:
+  static constexpr float kReach_m = 7.99F;
+
+  CellStore() = default;
+  /// Empty cells, for heights around `level_m`.
+  CellStore(std::size_t cells, double level_m);
+  /// Cells with these memories, in the middle of whose heights the level is.
+  explicit CellStore(std::span<const CellMemory> cells);
+
+  [[nodiscard]] std::size_t size() const { return words_.size(); }
+  [[nodiscard]] bool is_empty(std::size_t slot) const { return words_[slot] == 0; }
+  /// Whether a cell has an upper level or something overhead.
+  [[nodiscard]] bool has_more(std::size_t slot) const { return (words_[slot] & kMore) != 0; }
+  [[nodiscard]] CellMemory at(std::size_t slot) const;
+  void set(std::size_t slot, const CellMemory& memory);
+
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return words_.capacity() * sizeof(std::uint64_t) + more_.capacity() * sizeof(More);
+  }
+
+ private:
+  /// Low bits of a cell's word; above them is its lower level.
+  static constexpr std::uint64_t kNoReturn = CellMemory::kMostNoReturnFrames;
+  static constexpr std::uint64_t kMore = 32;
+
+  struct More {
+    std::uint64_t upper;
+    float overhead_z_m;
+    std::uint32_t slot;
+  };
+  [[nodiscard]] std::vector<More>::const_iterator place_of(std::size_t slot) const;
+  void set_more(std::size_t slot, const CellMemory& memory);
+
+  std::vector<std::uint64_t> words_;
+  std::vector<More> more_;  ///< by rising slot
+  std::int64_t level_ = 0;  ///< heights are stored as differences from it, in units of the store
+};
+
+}  // namespace floornav
