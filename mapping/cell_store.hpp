@@ -5,16 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "mapping/cell_memory.hpp"
+#include "mapping/packed_level.hpp"
 
 namespace floornav {
 
 /// The lattice cells of a tile in 8 bytes each; what few cells have - an upper level, something overhead -
 /// lies beside them.
 ///
-/// Heights are kept in steps of 15 um (so that the small gain of a far view still moves them) up to
-/// kReach_m above and below the level that the store was made for; what is farther is kept at that distance.
-/// Rises of planes are kept to 1/2048 up to 1, of columns to 1/32 up to 64, variances to 3 %.
+/// Heights are kept in steps of 15 um, so that the small gain of a far view still moves them, up to kReach_m
+/// above and below the level that the store was made for; what is farther is kept at that distance.
 class CellStore {
  public:
   static constexpr float kReach_m = 7.99F;
@@ -30,6 +29,11 @@ class CellStore {
   /// Whether a cell has an upper level or something overhead.
   [[nodiscard]] bool has_more(std::size_t slot) const { return (words_[slot] & kMore) != 0; }
   [[nodiscard]] CellMemory at(std::size_t slot) const;
+  /// CellMemory::decider() of a cell; some surface where there is none.
+  [[nodiscard]] Surface decider(std::size_t slot) const {
+    const std::uint64_t word = words_[slot];
+    return PackedLevel((word & kMore) == 0 ? word : deciding_word(slot)).surface(level_);
+  }
   void set(std::size_t slot, const CellMemory& memory);
 
   [[nodiscard]] std::size_t memory_bytes() const {
@@ -40,12 +44,14 @@ class CellStore {
   /// Low bits of a cell's word; above them is its lower level.
   static constexpr std::uint64_t kNoReturn = CellMemory::kMostNoReturnFrames;
   static constexpr std::uint64_t kMore = 32;
+  static_assert(kMore < 1U << PackedLevel::kFreeBits);
 
   struct More {
     std::uint64_t upper;
     float overhead_z_m;
     std::uint32_t slot;
   };
+  [[nodiscard]] std::uint64_t deciding_word(std::size_t slot) const;
   [[nodiscard]] std::vector<More>::const_iterator place_of(std::size_t slot) const;
   void set_more(std::size_t slot, const CellMemory& memory);
 

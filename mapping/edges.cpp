@@ -15,10 +15,15 @@ bool side_open(const VertexRef& from, std::size_t k) {
   return from.neighbour(k & 7U).vertex().is(Vertex::kFree);
 }
 
+void set(const VertexRef& from, std::size_t k, bool open) {
+  std::uint8_t& steps = from.tile->steps_open[from.index()];
+  steps = static_cast<std::uint8_t>(open ? steps | bit(k) : steps & ~bit(k));
+}
+
 bool diagonal_open(const VertexRef& from, std::size_t k, std::uint8_t sides, const StepRule& rule) {
   if ((sides & bit(k - 1)) == 0 || (sides & bit(k + 1)) == 0) return false;
   return side_open(from.neighbour((k - 1) & 7U), k + 1) && side_open(from.neighbour((k + 1) & 7U), k - 1) &&
-         rule.open(from.vertex().surface, from.neighbour(k).vertex().surface, k);
+         rule.open(from.surface(), from.neighbour(k).surface(), k);
 }
 
 /// The edges that cannot be told because they, or a way around their corner, lead to a tile that is not
@@ -44,11 +49,12 @@ float StepRule::rise_m(const Surface& from, const Surface& to, std::size_t k) co
 }
 
 bool is_rim(const VertexRef& place, const StepRule& rule) {
-  const Surface& from = place.vertex().surface;
+  const Surface from = place.surface();
   for (std::size_t k = 0; k < 8; k += 2) {
     const VertexRef to = place.neighbour(k);
-    if (!to || !to.vertex().is(Vertex::kSeen) || to.vertex().surface.column) continue;
-    const Surface& beside = to.vertex().surface;
+    if (!to || !to.vertex().is(Vertex::kSeen)) continue;
+    const Surface beside = to.surface();
+    if (beside.column) continue;
     if (-rule.rise_m(from, beside, k) > rule.max_step_m + 3.0F * std::sqrt(from.var_m2 + beside.var_m2))
       return true;
   }
@@ -59,11 +65,10 @@ void open_steps(MapTile& tile, const StepRule& rule) {
   tile.steps_open.fill(0);
   const auto join = [&](const VertexRef& from, std::size_t k) {
     const VertexRef to = from.neighbour(k);
-    if (!to || !to.vertex().is(Vertex::kDrivable) ||
-        !rule.open(from.vertex().surface, to.vertex().surface, k))
-      return;
-    tile.steps_open[from.index()] |= bit(k);
-    if (to.tile == &tile) tile.steps_open[to.index()] |= bit(k + 4);
+    if (!to || !to.vertex().is(Vertex::kDrivable)) return;
+    const bool open = rule.open(from.surface(), to.surface(), k);
+    set(from, k, open);
+    set(to, k + 4, open);
   };
   for (std::int32_t y = 0; y < MapTile::kSide; ++y) {
     for (std::int32_t x = 0; x < MapTile::kSide; ++x) {

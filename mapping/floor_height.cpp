@@ -45,8 +45,8 @@ void FloorHeight::update(MapTile& tile) {
     for (std::int32_t x = 0; x < MapTile::kSide; x += side_) {
       floor_m.clear();
       for (std::int32_t i = 0; i < side_ * side_; ++i) {
-        const Vertex& vertex = VertexRef{&tile, x + i % side_, y + i / side_}.vertex();
-        if (vertex.is(Vertex::kFloor)) floor_m.push_back(vertex.surface.z_m);
+        const VertexRef place{&tile, x + i % side_, y + i / side_};
+        if (place.vertex().is(Vertex::kFloor)) floor_m.push_back(place.surface().z_m);
       }
       const CellIndex block{(tile.index.ix * MapTile::kSide + x) / side_,
                             (tile.index.iy * MapTile::kSide + y) / side_};

@@ -80,7 +80,7 @@ float FloorReach::unexplained_step(const VertexRef& from, std::int32_t dx, std::
     const VertexRef between = from.moved(dx * i / ring, dy * i / ring);
     if (!between || !between.vertex().is(Vertex::kSeen)) ++unknown;
   }
-  const float step_m = std::abs(from.moved(dx, dy).vertex().surface.z_m - from.vertex().surface.z_m);
+  const float step_m = std::abs(from.moved(dx, dy).surface().z_m - from.surface().z_m);
   return step_m - rise_per_vertex_m_ * static_cast<float>(unknown == 0 ? 0 : unknown + 1);
 }
 

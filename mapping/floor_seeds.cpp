@@ -30,7 +30,7 @@ std::vector<Candidate> candidates(const Pose& T_world_body, const Lattice& latti
       if (std::hypot(x_m - body.x(), y_m - body.y()) > kRadius_m) continue;
       const VertexRef place = tiles.find_vertex({ix, iy});
       if (!place || !place.vertex().is(Vertex::kDrivable)) continue;
-      const float above_m = place.vertex().surface.z_m - plane_height_m(T_world_body, x_m, y_m);
+      const float above_m = place.surface().z_m - plane_height_m(T_world_body, x_m, y_m);
       if (std::abs(above_m) <= kSearch_m) found.push_back({above_m, place});
     }
   }

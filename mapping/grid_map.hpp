@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mapping/seen_times.hpp"
 #include "mapping/tile_map.hpp"
 #include "runtime/geometry/lattice.hpp"
 
@@ -25,6 +26,7 @@ struct GridTile {
   static constexpr float kSlopeUnit_deg = 0.5F;
   static constexpr float kClearanceUnit_m = 0.01F;
   static constexpr std::uint8_t kNothingAbove = 255;
+  using Seen = SeenTimes<kVertices>;
 
   std::int64_t version = 0;  ///< map version at which it last changed
   float origin_z_m = 0;      ///< added to heights
@@ -35,14 +37,7 @@ struct GridTile {
   std::array<std::uint8_t, kVertices> slope{};      ///< kSlopeUnit_deg
   std::array<std::uint8_t, kVertices> clearance{};  ///< kClearanceUnit_m of free height, kNothingAbove: open
   std::array<std::uint8_t, kVertices> edges{};      ///< bit k: the edge to neighbour k is open, eq. (2)
-  std::array<std::uint32_t, kVertices> seen{};      ///< seen_at() of the last evidence, 0: never
-
-  /// A time in units of 0.1 s that starts again every 13 years: only differences tell.
-  static constexpr std::int64_t kSeenUnit_us = 100'000;
-  static constexpr std::uint32_t seen_at(std::int64_t utime_us) {
-    const auto time = static_cast<std::uint32_t>(utime_us / kSeenUnit_us);
-    return time == 0 ? 1 : time;
-  }
+  Seen seen;                                        ///< of the last evidence
 
   static constexpr std::int32_t index_of(CellIndex cell) {
     return (cell.iy - block_of(cell.iy, kSide) * kSide) * kSide +

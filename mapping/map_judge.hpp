@@ -32,7 +32,7 @@ class MapJudge {
  private:
   /// Both: false where nothing that matters differs from before.
   bool summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) const;
-  bool take_summary(std::span<const CellMemory> cells, std::int32_t side, Vertex& vertex) const;
+  bool take_summary(std::span<const CellMemory> cells, std::int32_t side, MapTile& tile, std::size_t i) const;
   bool judge(MapTile& tile, const Pose& T_world_body);
   bool judge_vertex(const VertexRef& place, float floor_m);
   [[nodiscard]] bool publish_edges(MapTile& tile) const;

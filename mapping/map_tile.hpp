@@ -4,6 +4,8 @@
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "mapping/cell_store.hpp"
 #include "mapping/grid_map.hpp"
@@ -19,18 +21,36 @@ struct MapTile {
   CellIndex index;
   std::array<MapTile*, 8> neighbours{};  ///< as kNeighbourX, kNeighbourY; null where there is none yet
   CellStore cells;                       ///< vertex by vertex; those of a vertex row by row along x
+  std::vector<Surface> surfaces;         ///< of the vertices, where several cells make one
   std::array<Vertex, GridTile::kVertices> vertices{};
   std::array<std::uint8_t, GridTile::kVertices>
       steps_open{};                          ///< bit k as GridTile::edges, even k only: by heights alone
   std::bitset<GridTile::kVertices> touched;  ///< have new evidence since the last refresh
   bool floor_is_known = false;               ///< woken: Vertex::kFloor is from before and seeds the floor
+  bool overhead_moved = false;               ///< of some cell, since the last refresh
   bool high_tops = false;                    ///< some cell has had one: CellMemory::has_high_top()
   std::int64_t judged = -1;                  ///< map version at which it was last judged
   GridTile* grid = nullptr;                  ///< what is published of it
 
-  [[nodiscard]] std::int64_t memory_bytes() const {
-    return static_cast<std::int64_t>(sizeof(MapTile) + cells.memory_bytes());
+  /// What decides in a vertex that was seen.
+  [[nodiscard]] Surface surface(std::size_t vertex) const {
+    return surfaces.empty() ? cells.decider(vertex) : surfaces[vertex];
   }
+  /// z of the lowest thing above the robot's height; NaN: none.
+  [[nodiscard]] float overhead_z_m(std::size_t vertex) const;
+  /// When its vertices were seen last: as published, or its own until then.
+  [[nodiscard]] GridTile::Seen& seen();
+  [[nodiscard]] const GridTile::Seen& seen() const;
+  /// From now on `tile` is what is published of it.
+  void publish_in(GridTile& tile);
+
+  [[nodiscard]] std::int64_t memory_bytes() const {
+    const std::size_t own = (seen_ ? sizeof *seen_ : 0) + surfaces.capacity() * sizeof(Surface);
+    return static_cast<std::int64_t>(sizeof(MapTile) + cells.memory_bytes() + own);
+  }
+
+ private:
+  std::unique_ptr<GridTile::Seen> seen_;
 };
 
 /// A place in the map that can be walked from tile to tile without looking tiles up.
@@ -45,6 +65,7 @@ struct VertexRef {
     return static_cast<std::size_t>(place);
   }
   [[nodiscard]] Vertex& vertex() const { return tile->vertices[index()]; }
+  [[nodiscard]] Surface surface() const { return tile->surface(index()); }
 
   /// The vertex `dx`, `dy` steps on, at most a tile's side; false where there is no tile.
   [[nodiscard]] VertexRef moved(std::int32_t dx, std::int32_t dy) const {

@@ -56,6 +56,7 @@ MapTile& MapTiles::add(CellIndex tile) {
   auto& slot = tiles_[tile];
   slot = std::make_unique<MapTile>();
   slot->index = tile;
+  if (cells_per_vertex_ > 1) slot->surfaces.resize(GridTile::kVertices);
   for (std::size_t k = 0; k < 8; ++k) {
     MapTile* const beside = find({tile.ix + kNeighbourX[k], tile.iy + kNeighbourY[k]});
     if (beside == nullptr) continue;

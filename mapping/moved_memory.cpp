@@ -89,8 +89,8 @@ class MemoryMover {
       const Eigen::Vector2d from_center_m = place_m - center_m(old);
       cells[slot] = {moved(cell.lower(), from_center_m), moved(cell.upper(), from_center_m),
                      cell.overhead_z_m() + static_cast<float>(motion_.shift_m.z()), cell.no_return_frames()};
-      Vertex& vertex = tile.vertices[slot / per_vertex];
-      vertex.seen = std::max(vertex.seen, old_vertex.vertex().seen);
+      const std::size_t vertex = slot / per_vertex;
+      tile.seen().set(vertex, std::max(tile.seen()[vertex], old_vertex.tile->seen()[old_vertex.index()]));
       known = known || cell.lower().exists() || cell.no_return_frames() > 0;
     }
     tile.cells = CellStore(cells);

@@ -149,26 +149,25 @@ CellStore read_cells(std::size_t count, ByteReader& in) {
 
 /// Runs of vertices that share a value, each as its length and what `write(value)` tells.
 template <class Value, class Write>
-void write_runs(const MapTile& tile, Value value, Write write) {
-  for (std::size_t i = 0; i < tile.vertices.size();) {
+void write_runs(Value value, Write write) {
+  constexpr std::size_t kAll = GridTile::kVertices;
+  for (std::size_t i = 0; i < kAll;) {
     const std::size_t begin = i;
-    const auto shared = value(tile.vertices[begin]);
-    while (i < tile.vertices.size() && value(tile.vertices[i]) == shared) ++i;
+    const auto shared = value(begin);
+    while (i < kAll && value(i) == shared) ++i;
     write(i - begin, shared);
   }
 }
 
 void write_vertices(const MapTile& tile, ByteWriter& out) {
-  write_runs(
-      tile, [](const Vertex& v) { return v.is(Vertex::kFloor); },
-      [&](std::size_t run, bool floor) { out.count(2 * run + (floor ? 1 : 0)); });
+  write_runs([&](std::size_t i) { return tile.vertices[i].is(Vertex::kFloor); },
+             [&](std::size_t run, bool floor) { out.count(2 * run + (floor ? 1 : 0)); });
   std::int64_t previous = 0;
-  write_runs(
-      tile, [](const Vertex& v) { return std::int64_t{v.seen}; },
-      [&](std::size_t run, std::int64_t seen) {
-        out.count(run);
-        write_difference(seen, previous, out);
-      });
+  write_runs([&](std::size_t i) { return std::int64_t{tile.seen()[i]}; },
+             [&](std::size_t run, std::int64_t seen) {
+               out.count(run);
+               write_difference(seen, previous, out);
+             });
 }
 
 void read_vertices(MapTile& tile, ByteReader& in) {
@@ -185,7 +184,7 @@ void read_vertices(MapTile& tile, ByteReader& in) {
     if (run == 0) throw std::invalid_argument("a run of nothing");
     const std::int64_t seen = read_difference(previous, kMostTime, in);
     if (seen < 0) throw std::invalid_argument("a time that cannot be");
-    for (; run > 0; --run) tile.vertices[i++].seen = static_cast<std::uint32_t>(seen);
+    for (; run > 0; --run) tile.seen().set(i++, static_cast<std::uint32_t>(seen));
   }
 }
 

@@ -49,16 +49,6 @@ float slope_deg(const Surface& surface) {
   return std::atan(std::hypot(surface.gradient_x, surface.gradient_y)) * (180.0F / std::numbers::pi_v<float>);
 }
 
-bool differs_noticeably(const Surface& surface, const Surface& known) {
-  constexpr float kHeight_m = 0.0005F;
-  constexpr float kRise = 0.0087F;
-  constexpr float kVariance = 2.0F;
-  return surface.column != known.column || std::abs(surface.z_m - known.z_m) > kHeight_m ||
-         std::abs(surface.gradient_x - known.gradient_x) > kRise ||
-         std::abs(surface.gradient_y - known.gradient_y) > kRise ||
-         surface.var_m2 > kVariance * known.var_m2 || known.var_m2 > kVariance * surface.var_m2;
-}
-
 SquareSummary summarise(std::span<const CellMemory> cells, std::int32_t side, float pitch_m, float step_m) {
   SquareSummary summary;
   MeanSurface planes;

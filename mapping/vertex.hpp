@@ -2,14 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include "mapping/cell_memory.hpp"
 
 namespace floornav {
 
-/// A vertex of the map before it is judged: what its lattice cells say together.
+/// What is known of a vertex of the map beside its surface.
 struct Vertex {
   static constexpr std::uint8_t kSeen = 1;      ///< a surface decides
   static constexpr std::uint8_t kDrivable = 2;  ///< by its own slope and evenness
@@ -20,9 +19,6 @@ struct Vertex {
   static constexpr std::uint8_t kFree = 32;   ///< the verdict on a vertex that was seen
   static constexpr std::uint8_t kAsked = 64;  ///< the search for what is cut off has been here
 
-  Surface surface;
-  float overhead_z_m = std::numeric_limits<float>::quiet_NaN();  ///< lowest thing above the robot's height
-  std::uint32_t seen = 0;                                        ///< as GridTile::seen
   std::uint8_t flags = 0;
 
   [[nodiscard]] bool is(std::uint8_t flag) const { return (flags & flag) != 0; }
@@ -33,10 +29,6 @@ struct Vertex {
 
 /// Steepest rise of a surface, degrees.
 float slope_deg(const Surface& surface);
-
-/// Whether a surface tells anything new to somebody who knows another: half a millimetre, half a degree, half
-/// as much again or less of uncertainty. What is less is noise of the fusion, and is neither judged nor sent.
-bool differs_noticeably(const Surface& surface, const Surface& known);
 
 /// What decides in a square of lattice cells.
 struct SquareSummary {

@@ -87,14 +87,16 @@ void WorldMemory::take_cell(const FloorEvidence& evidence, Entries entries, cons
   if (tile == nullptr) return;
   const std::size_t slot = tiles.slot_of(cell);
   CellMemory memory = tile->cells.at(slot);
+  const float overhead_before_m = memory.overhead_z_m();
   const bool overhead = split_overhead(memory, overhead_limit_m(evidence, cell, vertex, floor));
+  tile->overhead_moved = tile->overhead_moved || (overhead && memory.overhead_z_m() != overhead_before_m);
   view.sightings = sightings_;
   if (!memory.fuse(view, limits_) && !overhead) return;
   tile->cells.set(slot, memory);
   const std::size_t index = GridMap::index_of(vertex);
   touch(*tile, index);
   tile->high_tops = tile->high_tops || memory.has_high_top();
-  if (!sightings_.empty()) tile->vertices[index].seen = GridTile::seen_at(evidence.utime_us);
+  if (!sightings_.empty()) tile->seen().set(index, GridTile::Seen::at(evidence.utime_us));
 }
 
 void WorldMemory::touch(MapTile& tile, std::size_t vertex) {
@@ -114,6 +116,7 @@ void WorldMemory::lift(const HeightError& by, const Lattice& lattice, MapTiles& 
       const auto by_m = static_cast<float>(by.at(lattice.center_of(cell.ix), lattice.center_of(cell.iy)));
       memory.lift(by_m, rise.x(), rise.y());
       tile.cells.set(slot, memory);
+      tile.overhead_moved = true;
       touch(tile, slot / per_vertex);
     }
   }

@@ -11,6 +11,7 @@
 namespace floornav {
 namespace {
 
+using Seen = GridTile::Seen;
 constexpr std::int32_t kOldestAge = std::numeric_limits<std::int16_t>::max();
 
 /// What is newer than `now` has come out of order: it is as new as can be.
@@ -43,8 +44,8 @@ grid_tile_t to_message(CellIndex index, const GridTile* tile, std::int64_t utime
   message.slope.assign(tile->slope.begin(), tile->slope.end());
   message.clearance.assign(tile->clearance.begin(), tile->clearance.end());
   message.edges.assign(tile->edges.begin(), tile->edges.end());
-  const std::uint32_t now = GridTile::seen_at(utime_us);
-  for (const std::uint32_t seen : tile->seen) message.age.push_back(age_of(seen, now));
+  const std::uint32_t now = Seen::at(utime_us);
+  for (std::size_t i = 0; i < tile->state.size(); ++i) message.age.push_back(age_of(tile->seen[i], now));
   return message;
 }
 
@@ -102,8 +103,9 @@ void take(const grid_tile_t& message, std::int64_t utime_us, GridTile& tile) {
   std::ranges::copy(message.slope, tile.slope.begin());
   std::ranges::copy(message.clearance, tile.clearance.begin());
   std::ranges::copy(message.edges, tile.edges.begin());
-  std::ranges::transform(message.age, tile.seen.begin(),
-                         [now = GridTile::seen_at(utime_us)](std::int16_t age) { return seen_of(age, now); });
+  const std::uint32_t now = Seen::at(utime_us);
+  tile.seen = {};
+  for (std::size_t i = 0; i < tile.state.size(); ++i) tile.seen.set(i, seen_of(message.age[i], now));
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ void fill(GridTile& tile, std::int64_t version, std::mt19937& random) {
     tile.slope[i] = static_cast<std::uint8_t>(random());
     tile.clearance[i] = static_cast<std::uint8_t>(random());
     tile.edges[i] = static_cast<std::uint8_t>(random());
-    tile.seen[i] =
-        random() % 4 == 0 ? 0 : GridTile::seen_at(kNow_us) - static_cast<std::uint32_t>(random() % 30000);
+    const std::uint32_t age = static_cast<std::uint32_t>(random() % 30000);
+    tile.seen.set(i, random() % 4 == 0 ? 0 : GridTile::Seen::at(kNow_us) - age);
   }
 }
 

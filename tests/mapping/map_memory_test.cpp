@@ -65,7 +65,7 @@ TEST_P(RandomTiles, ComeBackToWithinTheUnitsOfThePackingAndPackTheSameAgain) {
     const float overhead_m = random() % 5 == 0 ? 1.2F : std::numeric_limits<float>::quiet_NaN();
     const auto no_return_frames = static_cast<std::int32_t>(random() % 4);
     tile.cells.set(i, {random_level(random), upper, overhead_m, no_return_frames});
-    tile.vertices[i].seen = static_cast<std::uint32_t>(random() % 5);
+    tile.seen().set(i, static_cast<std::uint32_t>(random() % 5));
     tile.vertices[i].set(Vertex::kFloor, random() % 2 == 0);
   }
   const std::vector<std::uint8_t> bytes = pack(tile);
@@ -88,7 +88,7 @@ TEST_P(RandomTiles, ComeBackToWithinTheUnitsOfThePackingAndPackTheSameAgain) {
     }
     ASSERT_EQ(std::isnan(cell_after.overhead_z_m()), std::isnan(cell_before.overhead_z_m()));
     ASSERT_EQ(cell_after.no_return_frames(), cell_before.no_return_frames());
-    ASSERT_EQ(back.vertices[i].seen, tile.vertices[i].seen);
+    ASSERT_EQ(back.seen()[i], tile.seen()[i]);
     ASSERT_EQ(back.vertices[i].is(Vertex::kFloor), tile.vertices[i].is(Vertex::kFloor));
   }
   EXPECT_EQ(pack(back), bytes);

@@ -47,7 +47,7 @@ GridMap true_map(const TruthGrid& truth) {
       tile.belief[i] = cell.drivable ? 255 : 0;
       tile.height[i] = counts(cell.drivable ? cell.height_m : cell.highest_m);
       tile.clearance[i] = GridTile::kNothingAbove;
-      tile.seen[i] = GridTile::seen_at(1);
+      tile.seen.set(i, GridTile::Seen::at(1));
       if (cell.drivable) tile.edges[i] = open_edges(truth, x, y);
     }
   }

@@ -1,0 +1,34 @@
+#include "mapping/map_tile.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace floornav {
+
+float MapTile::overhead_z_m(std::size_t vertex) const {
+  const std::size_t per_vertex = cells.size() / vertices.size();
+  float lowest_m = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t slot = vertex * per_vertex; slot < (vertex + 1) * per_vertex; ++slot)
+    if (cells.has_more(slot)) lowest_m = std::fmin(lowest_m, cells.at(slot).overhead_z_m());
+  return lowest_m;
+}
+
+GridTile::Seen& MapTile::seen() {
+  if (grid != nullptr) return grid->seen;
+  if (!seen_) seen_ = std::make_unique<GridTile::Seen>();
+  return *seen_;
+}
+
+const GridTile::Seen& MapTile::seen() const {
+  static const GridTile::Seen kNever;
+  if (grid != nullptr) return grid->seen;
+  return seen_ ? *seen_ : kNever;
+}
+
+void MapTile::publish_in(GridTile& tile) {
+  grid = &tile;
+  if (const auto own = std::exchange(seen_, nullptr)) grid->seen = *own;
+}
+
+}  // namespace floornav
