@@ -17,7 +17,8 @@ install(EXPORT floornav_targets NAMESPACE floornav:: FILE floornav-targets.cmake
 install(DIRECTORY planner DESTINATION ${installed_headers} FILES_MATCHING PATTERN "*.hpp"
         PATTERN node EXCLUDE PATTERN example EXCLUDE)
 install(DIRECTORY runtime/geometry DESTINATION ${installed_headers}/runtime FILES_MATCHING PATTERN "*.hpp")
-install(FILES mapping/grid_map.hpp mapping/tile_map.hpp DESTINATION ${installed_headers}/mapping)
+install(FILES mapping/clearances.hpp mapping/grid_map.hpp mapping/seen_times.hpp mapping/sigma_code.hpp mapping/tile_map.hpp mapping/vertex_states.hpp
+        DESTINATION ${installed_headers}/mapping)
 install(FILES lcmtypes/channels.hpp lcmtypes/wire_checks.hpp DESTINATION ${installed_headers}/lcmtypes)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/lcmtypes/include/floornav DESTINATION ${installed_headers})
 

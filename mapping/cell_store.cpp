@@ -30,7 +30,8 @@ double middle_of(std::span<const CellMemory> cells) {
 
 }  // namespace
 
-CellStore::CellStore(std::size_t cells, double level_m) : words_(cells), level_(units_of(level_m)) {}
+CellStore::CellStore(std::size_t cells, double level_m)
+    : blocks_(cells / kBlock, kNoBlock), level_(units_of(level_m)) {}
 
 CellStore::CellStore(std::span<const CellMemory> cells) : CellStore(cells.size(), middle_of(cells)) {
   for (std::size_t slot = 0; slot < cells.size(); ++slot) set(slot, cells[slot]);
@@ -41,25 +42,36 @@ std::vector<CellStore::More>::const_iterator CellStore::place_of(std::size_t slo
 }
 
 CellMemory CellStore::at(std::size_t slot) const {
-  const std::uint64_t word = words_[slot];
-  if (word == 0) return {};
-  const Level lower = PackedLevel(word).level(level_);
-  const auto no_return_frames = static_cast<std::uint8_t>(word & kNoReturn);
-  if ((word & kMore) == 0) return {lower, {}, std::numeric_limits<float>::quiet_NaN(), no_return_frames};
+  const std::uint64_t own = word(slot);
+  if (own == 0) return {};
+  const Level lower = PackedLevel(own).level(level_);
+  const auto no_return_frames = static_cast<std::int32_t>(own & kNoReturn);
+  if ((own & kMore) == 0) return {lower, {}, std::numeric_limits<float>::quiet_NaN(), no_return_frames};
   const More& more = *place_of(slot);
   return {lower, PackedLevel(more.upper).level(level_), more.overhead_z_m, no_return_frames};
 }
 
 std::uint64_t CellStore::deciding_word(std::size_t slot) const {
   const std::uint64_t upper = place_of(slot)->upper;
-  return PackedLevel(upper).support() >= Level::kTrusted ? upper : words_[slot];
+  return PackedLevel(upper).support() >= Level::kTrusted ? upper : word(slot);
 }
 
 void CellStore::set(std::size_t slot, const CellMemory& memory) {
   const bool more = memory.upper().exists() || !std::isnan(memory.overhead_z_m());
   if (more || has_more(slot)) set_more(slot, memory);
-  words_[slot] = PackedLevel(memory.lower(), level_).word() |
-                 static_cast<std::uint64_t>(memory.no_return_frames()) | (more ? kMore : 0);
+  const std::uint64_t now = PackedLevel(memory.lower(), level_).word() |
+                            static_cast<std::uint64_t>(memory.no_return_frames()) | (more ? kMore : 0);
+  std::uint32_t& block = blocks_[block_of(slot)];
+  if (block == kNoBlock && now == 0) return;
+  if (block == kNoBlock) block = add_block();
+  words_[block * kBlock + place_in_block(slot)] = now;
+}
+
+std::uint32_t CellStore::add_block() {
+  const std::size_t before = words_.size();
+  words_.reserve(before + kBlock);  // no more than that
+  words_.resize(before + kBlock);
+  return static_cast<std::uint32_t>(before / kBlock);
 }
 
 void CellStore::set_more(std::size_t slot, const CellMemory& memory) {

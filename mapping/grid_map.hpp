@@ -4,13 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mapping/clearances.hpp"
 #include "mapping/seen_times.hpp"
+#include "mapping/sigma_code.hpp"
 #include "mapping/tile_map.hpp"
+#include "mapping/vertex_states.hpp"
 #include "runtime/geometry/lattice.hpp"
 
 namespace floornav {
-
-enum class VertexState : std::uint8_t { kUnknown = 0, kFree = 1, kBlocked = 2 };
 
 /// The eight neighbours of a vertex, counter-clockwise from +x: neighbour k is reached by (kNeighbourX[k],
 /// kNeighbourY[k]).
@@ -25,19 +26,19 @@ struct GridTile {
   static constexpr float kHeightUnit_m = 1e-4F;
   static constexpr float kSlopeUnit_deg = 0.5F;
   static constexpr float kClearanceUnit_m = 0.01F;
-  static constexpr std::uint8_t kNothingAbove = 255;
+  static constexpr std::uint8_t kNothingAbove = Clearances<kVertices>::kNothingAbove;
   using Seen = SeenTimes<kVertices>;
 
   std::int64_t version = 0;  ///< map version at which it last changed
   float origin_z_m = 0;      ///< added to heights
-  std::array<VertexState, kVertices> state{};
-  std::array<std::uint8_t, kVertices> belief{};     ///< 0..255 for 0..1, section 4.6
-  std::array<std::int16_t, kVertices> height{};     ///< kHeightUnit_m above origin_z_m
-  std::array<std::int16_t, kVertices> sigma{};      ///< kHeightUnit_m, 1 sigma of height
-  std::array<std::uint8_t, kVertices> slope{};      ///< kSlopeUnit_deg
-  std::array<std::uint8_t, kVertices> clearance{};  ///< kClearanceUnit_m of free height, kNothingAbove: open
-  std::array<std::uint8_t, kVertices> edges{};      ///< bit k: the edge to neighbour k is open, eq. (2)
-  Seen seen;                                        ///< of the last evidence
+  VertexStates<kVertices> state;
+  std::array<std::uint8_t, kVertices> belief{};  ///< 0..255 for 0..1, section 4.6
+  std::array<std::int16_t, kVertices> height{};  ///< kHeightUnit_m above origin_z_m
+  std::array<std::uint8_t, kVertices> sigma{};   ///< sigma_code() of kHeightUnit_m, 1 sigma of height
+  std::array<std::uint8_t, kVertices> slope{};   ///< kSlopeUnit_deg
+  Clearances<kVertices> clearance;               ///< kClearanceUnit_m of free height, kNothingAbove: open
+  std::array<std::uint8_t, kVertices> edges{};   ///< bit k: the edge to neighbour k is open, eq. (2)
+  Seen seen;                                     ///< of the last evidence
 
   static constexpr std::int32_t index_of(CellIndex cell) {
     return (cell.iy - block_of(cell.iy, kSide) * kSide) * kSide +

@@ -22,19 +22,19 @@ Stored quantised(float value, float unit) {
 /// What `surface` is in the units of a grid tile.
 struct Counts {
   std::int16_t height;
-  std::int16_t sigma;
+  std::uint8_t sigma;
   std::uint8_t slope;
 
   Counts(const Surface& surface, float slope_deg, const GridTile& tile)
       : height(quantised<std::int16_t>(surface.z_m - tile.origin_z_m, GridTile::kHeightUnit_m)),
-        sigma(quantised<std::int16_t>(std::sqrt(surface.var_m2), GridTile::kHeightUnit_m)),
+        sigma(sigma_code(quantised<std::int16_t>(std::sqrt(surface.var_m2), GridTile::kHeightUnit_m))),
         slope(quantised<std::uint8_t>(slope_deg, GridTile::kSlopeUnit_deg)) {}
 
   [[nodiscard]] bool differ_noticeably(const GridTile& tile, std::size_t vertex) const {
-    const auto known = static_cast<float>(tile.sigma[vertex]);
+    const auto known = static_cast<float>(sigma_counts(tile.sigma[vertex]));
+    const auto now = static_cast<float>(sigma_counts(sigma));
     return std::abs(height - tile.height[vertex]) > kHeightNoise ||
-           std::abs(slope - tile.slope[vertex]) > 1 || static_cast<float>(sigma) > kSigmaNoise * known ||
-           known > kSigmaNoise * static_cast<float>(sigma);
+           std::abs(slope - tile.slope[vertex]) > 1 || now > kSigmaNoise * known || known > kSigmaNoise * now;
   }
 };
 
@@ -43,6 +43,12 @@ template <class Value>
 bool assign(Value& slot, Value value, int noise = 0) {
   if (std::abs(static_cast<int>(slot) - static_cast<int>(value)) <= noise) return false;
   slot = value;
+  return true;
+}
+
+bool assign_state(VertexState state, GridTile& published, std::size_t vertex) {
+  if (published.state[vertex] == state) return false;
+  published.state[vertex] = state;
   return true;
 }
 
@@ -55,7 +61,7 @@ bool differs_noticeably(const Surface& surface, float slope_deg, const GridTile&
 
 bool publish_seen(const Surface& surface, float slope_deg, bool free, float belief, GridTile& published,
                   std::size_t vertex) {
-  bool differs = assign(published.state[vertex], free ? VertexState::kFree : VertexState::kBlocked);
+  bool differs = assign_state(free ? VertexState::kFree : VertexState::kBlocked, published, vertex);
   differs |= assign(published.belief[vertex], quantised<std::uint8_t>(belief, 1.0F / 255.0F), 1);
   const Counts counts(surface, slope_deg, published);
   if (!counts.differ_noticeably(published, vertex)) return differs;
@@ -66,13 +72,12 @@ bool publish_seen(const Surface& surface, float slope_deg, bool free, float beli
 }
 
 bool publish_unseen(bool drop, float floor_m, GridTile& published, std::size_t vertex) {
-  constexpr std::int16_t kNoIdea = std::numeric_limits<std::int16_t>::max();
   const float height_m = drop ? floor_m - published.origin_z_m : 0.0F;
   const auto height = quantised<std::int16_t>(height_m, GridTile::kHeightUnit_m);
-  bool differs = assign(published.state[vertex], drop ? VertexState::kBlocked : VertexState::kUnknown);
+  bool differs = assign_state(drop ? VertexState::kBlocked : VertexState::kUnknown, published, vertex);
   differs |= assign(published.belief[vertex], std::uint8_t{0});
   differs |= assign(published.height[vertex], height, kHeightNoise);
-  differs |= assign(published.sigma[vertex], drop ? kNoIdea : std::int16_t{0});
+  differs |= assign(published.sigma[vertex], sigma_code(drop ? kUnknownSigma : 0));
   differs |= assign(published.slope[vertex], std::uint8_t{0});
   return differs;
 }
@@ -82,9 +87,11 @@ bool publish_clearance(float overhead_z_m, float floor_m, GridTile& published, s
   if (!std::isnan(overhead_z_m))
     clearance = std::min<std::uint8_t>(
         quantised<std::uint8_t>(overhead_z_m - floor_m, GridTile::kClearanceUnit_m), clearance - 1);
-  const bool opens =
-      (clearance == GridTile::kNothingAbove) != (published.clearance[vertex] == GridTile::kNothingAbove);
-  return assign(published.clearance[vertex], clearance, opens ? 0 : 1);
+  const std::uint8_t known = published.clearance[vertex];
+  const bool opens = (clearance == GridTile::kNothingAbove) != (known == GridTile::kNothingAbove);
+  if (!opens && std::abs(clearance - known) <= 1) return false;
+  published.clearance.set(vertex, clearance);
+  return true;
 }
 
 }  // namespace floornav

@@ -129,7 +129,11 @@ std::int64_t WorldMap::memory_bytes() const {
     using Tile = typename std::decay_t<decltype(map.tiles())>::mapped_type::element_type;
     return static_cast<std::int64_t>(map.tiles().size() * (sizeof(Tile) + sizeof(Entry) + sizeof(void*)));
   };
-  return tiles_.memory_bytes() + of_map(grid_) + of_map(terrain_) + judge_.floor().memory_bytes();
+  std::int64_t clearances = 0;
+  for (const auto& [index, tile] : grid_.tiles())
+    clearances += static_cast<std::int64_t>(tile->clearance.memory_bytes());
+  return tiles_.memory_bytes() + of_map(grid_) + clearances + of_map(terrain_) +
+         judge_.floor().memory_bytes();
 }
 
 void WorldMap::start_epoch() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -37,15 +38,17 @@ grid_tile_t to_message(CellIndex index, const GridTile* tile, std::int64_t utime
   message.origin_z = tile->origin_z_m;
   message.side = GridTile::kSide;
   message.count = GridTile::kVertices;
-  for (const VertexState state : tile->state) message.state.push_back(static_cast<std::uint8_t>(state));
   message.belief.assign(tile->belief.begin(), tile->belief.end());
   message.height.assign(tile->height.begin(), tile->height.end());
-  message.sigma.assign(tile->sigma.begin(), tile->sigma.end());
+  std::ranges::transform(tile->sigma, std::back_inserter(message.sigma), sigma_counts);
   message.slope.assign(tile->slope.begin(), tile->slope.end());
-  message.clearance.assign(tile->clearance.begin(), tile->clearance.end());
   message.edges.assign(tile->edges.begin(), tile->edges.end());
   const std::uint32_t now = Seen::at(utime_us);
-  for (std::size_t i = 0; i < tile->state.size(); ++i) message.age.push_back(age_of(tile->seen[i], now));
+  for (std::size_t i = 0; i < tile->state.size(); ++i) {
+    message.state.push_back(static_cast<std::uint8_t>(tile->state[i]));
+    message.clearance.push_back(tile->clearance[i]);
+    message.age.push_back(age_of(tile->seen[i], now));
+  }
   return message;
 }
 
@@ -95,17 +98,19 @@ void check(const grid_map_t& message) {
 void take(const grid_tile_t& message, std::int64_t utime_us, GridTile& tile) {
   tile.version = message.version;
   tile.origin_z_m = message.origin_z;
-  std::ranges::transform(message.state, tile.state.begin(),
-                         [](std::uint8_t s) { return static_cast<VertexState>(s); });
   std::ranges::copy(message.belief, tile.belief.begin());
   std::ranges::copy(message.height, tile.height.begin());
-  std::ranges::copy(message.sigma, tile.sigma.begin());
+  std::ranges::transform(message.sigma, tile.sigma.begin(), sigma_code);
   std::ranges::copy(message.slope, tile.slope.begin());
-  std::ranges::copy(message.clearance, tile.clearance.begin());
   std::ranges::copy(message.edges, tile.edges.begin());
   const std::uint32_t now = Seen::at(utime_us);
+  tile.clearance = {};
   tile.seen = {};
-  for (std::size_t i = 0; i < tile.state.size(); ++i) tile.seen.set(i, seen_of(message.age[i], now));
+  for (std::size_t i = 0; i < tile.state.size(); ++i) {
+    tile.state[i] = static_cast<VertexState>(message.state[i]);
+    tile.clearance.set(i, message.clearance[i]);
+    tile.seen.set(i, seen_of(message.age[i], now));
+  }
 }
 
 }  // namespace

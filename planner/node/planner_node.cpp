@@ -171,8 +171,7 @@ bool PlannerNode::surroundings_seen() {
       GridMap::tile_of(lattice.cell_of(here.x() + kSurroundings_m, here.y() + kSurroundings_m));
   for (const auto& [index, tile] : map_.map().tiles()) {
     if (index.ix < low.ix || index.ix > high.ix || index.iy < low.iy || index.iy > high.iy) continue;
-    for (const VertexState state : tile->state)
-      surroundings_seen_ = surroundings_seen_ || state == VertexState::kFree;
+    surroundings_seen_ = surroundings_seen_ || tile->state.count(VertexState::kFree) > 0;
   }
   return surroundings_seen_;
 }

@@ -22,9 +22,9 @@ void fill(GridTile& tile, std::int64_t version, std::mt19937& random) {
     tile.state[i] = static_cast<VertexState>(random() % 3);
     tile.belief[i] = static_cast<std::uint8_t>(random());
     tile.height[i] = static_cast<std::int16_t>(random());
-    tile.sigma[i] = static_cast<std::int16_t>(random() % 1000);
+    tile.sigma[i] = sigma_code(static_cast<std::int16_t>(random() % 1000));
     tile.slope[i] = static_cast<std::uint8_t>(random());
-    tile.clearance[i] = static_cast<std::uint8_t>(random());
+    tile.clearance.set(i, static_cast<std::uint8_t>(random()));
     tile.edges[i] = static_cast<std::uint8_t>(random());
     const std::uint32_t age = static_cast<std::uint32_t>(random() % 30000);
     tile.seen.set(i, random() % 4 == 0 ? 0 : GridTile::Seen::at(kNow_us) - age);

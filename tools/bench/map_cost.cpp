@@ -37,7 +37,7 @@ Shapes street() {
 double area_m2(const GridMap& map) {
   std::int64_t seen = 0;
   for (const auto& [index, tile] : map.tiles())
-    seen += GridTile::kVertices - std::ranges::count(tile->state, VertexState::kUnknown);
+    seen += GridTile::kVertices - static_cast<std::int64_t>(tile->state.count(VertexState::kUnknown));
   return static_cast<double>(seen) * map.lattice().pitch_m * map.lattice().pitch_m;
 }
 

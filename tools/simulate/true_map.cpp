@@ -46,7 +46,6 @@ GridMap true_map(const TruthGrid& truth) {
       tile.state[i] = cell.drivable ? VertexState::kFree : VertexState::kBlocked;
       tile.belief[i] = cell.drivable ? 255 : 0;
       tile.height[i] = counts(cell.drivable ? cell.height_m : cell.highest_m);
-      tile.clearance[i] = GridTile::kNothingAbove;
       tile.seen.set(i, GridTile::Seen::at(1));
       if (cell.drivable) tile.edges[i] = open_edges(truth, x, y);
     }
