@@ -1,6 +1,7 @@
 #include "mapping/edges.hpp"
 
 #include <cmath>
+#include <memory>
 
 namespace floornav {
 namespace {
@@ -9,32 +10,36 @@ constexpr std::uint8_t bit(std::size_t k) {
   return static_cast<std::uint8_t>(1U << (k & 7U));
 }
 
+bool step_open(const VertexRef& from, std::size_t k) {
+  return ((*from.tile->steps_open)[from.index()] & bit(k)) != 0;
+}
+
 /// The edge to side neighbour k of a free vertex.
 bool side_open(const VertexRef& from, std::size_t k) {
-  if ((from.tile->steps_open[from.index()] & bit(k)) == 0) return false;
-  return from.neighbour(k & 7U).vertex().is(Vertex::kFree);
+  return step_open(from, k) && from.neighbour(k & 7U).vertex().is(Vertex::kFree);
 }
 
-void set(const VertexRef& from, std::size_t k, bool open) {
-  std::uint8_t& steps = from.tile->steps_open[from.index()];
-  steps = static_cast<std::uint8_t>(open ? steps | bit(k) : steps & ~bit(k));
-}
-
-bool diagonal_open(const VertexRef& from, std::size_t k, std::uint8_t sides, const StepRule& rule) {
+bool diagonal_open(const VertexRef& from, std::size_t k, std::uint8_t sides) {
   if ((sides & bit(k - 1)) == 0 || (sides & bit(k + 1)) == 0) return false;
-  return side_open(from.neighbour((k - 1) & 7U), k + 1) && side_open(from.neighbour((k + 1) & 7U), k - 1) &&
-         rule.open(from.surface(), from.neighbour(k).surface(), k);
+  return step_open(from, k) && side_open(from.neighbour((k - 1) & 7U), k + 1) &&
+         side_open(from.neighbour((k + 1) & 7U), k - 1);
 }
 
-/// The edges that cannot be told because they, or a way around their corner, lead to a tile that is not
-/// there.
-std::uint8_t towards_absent(const VertexRef& from) {
-  const auto on_border = [](std::int32_t at) { return at == 0 || at == MapTile::kSide - 1; };
-  if (!on_border(from.x) && !on_border(from.y)) return 0;
+bool on_border(const VertexRef& place) {
+  const auto at_end = [](std::int32_t at) { return at == 0 || at == MapTile::kSide - 1; };
+  return at_end(place.x) || at_end(place.y);
+}
+
+/// The edges that are not told anew because they, or a way around their corner, lead to a tile that is not
+/// there or is not judged.
+std::uint8_t towards_absent(const VertexRef& from, std::int64_t version) {
+  if (!on_border(from)) return 0;
   std::uint8_t mask = 0;
-  for (std::size_t k = 0; k < 8; ++k)
-    if (!from.neighbour(k))
+  for (std::size_t k = 0; k < 8; ++k) {
+    const VertexRef to = from.neighbour(k);
+    if (!to || to.tile->judged != version)
       mask |= static_cast<std::uint8_t>(k % 2 == 0 ? bit(k - 1) | bit(k) | bit(k + 1) : bit(k));
+  }
   return mask;
 }
 
@@ -62,35 +67,34 @@ bool is_rim(const VertexRef& place, const StepRule& rule) {
 }
 
 void open_steps(MapTile& tile, const StepRule& rule) {
-  tile.steps_open.fill(0);
-  const auto join = [&](const VertexRef& from, std::size_t k) {
+  tile.steps_open = std::make_unique<MapTile::Steps>();
+  MapTile::Steps& steps = *tile.steps_open;
+  const auto join = [&](const VertexRef& from, const Surface& surface, std::size_t k) {
     const VertexRef to = from.neighbour(k);
-    if (!to || !to.vertex().is(Vertex::kDrivable)) return;
-    const bool open = rule.open(from.surface(), to.surface(), k);
-    set(from, k, open);
-    set(to, k + 4, open);
+    const bool there = k >= 4 && to.tile == &tile;  // joined from there
+    if (!to || there || !to.vertex().is(Vertex::kDrivable) || !rule.open(surface, to.surface(), k)) return;
+    steps[from.index()] |= bit(k);
+    if (to.tile == &tile) steps[to.index()] |= bit(k + 4);
   };
   for (std::int32_t y = 0; y < MapTile::kSide; ++y) {
     for (std::int32_t x = 0; x < MapTile::kSide; ++x) {
       const VertexRef from{&tile, x, y};
       if (!from.vertex().is(Vertex::kDrivable)) continue;
-      join(from, 0);
-      join(from, 2);
-      if (x == 0) join(from, 4);
-      if (y == 0) join(from, 6);
+      const Surface surface = from.surface();
+      for (std::size_t k = 0, end = on_border(from) ? 8 : 4; k < end; ++k) join(from, surface, k);
     }
   }
 }
 
-std::uint8_t open_edges(const VertexRef& from, const StepRule& rule, std::uint8_t published) {
+std::uint8_t open_edges(const VertexRef& from, std::int64_t version, std::uint8_t published) {
   if (!from.vertex().is(Vertex::kFree)) return 0;
-  const std::uint8_t kept = towards_absent(from);
+  const std::uint8_t kept = towards_absent(from, version);
   auto mask = static_cast<std::uint8_t>(published & kept);
   for (std::size_t k = 0; k < 8; k += 2)
     if ((kept & bit(k)) == 0 && side_open(from, k)) mask |= bit(k);
   const std::uint8_t sides = mask;
   for (std::size_t k = 1; k < 8; k += 2)
-    if ((kept & bit(k)) == 0 && diagonal_open(from, k, sides, rule)) mask |= bit(k);
+    if ((kept & bit(k)) == 0 && diagonal_open(from, k, sides)) mask |= bit(k);
   return mask;
 }
 

@@ -28,13 +28,13 @@ struct StepRule {
 /// that the edge itself goes through the upper one: no wheel may stand there.
 bool is_rim(const VertexRef& place, const StepRule& rule);
 
-/// Works out MapTile::steps_open of a tile: towards the four side neighbours, where both vertices are
-/// drivable.
+/// Works out MapTile::steps_open of a tile: where both vertices are drivable and eq. (2) lets the robot pass.
 void open_steps(MapTile& tile, const StepRule& rule);
 
 /// GridTile::edges of a vertex: open where both vertices are free and eq. (2) lets the robot pass. A diagonal
 /// is open only where both ways around its corner are open too, so that no wheel cuts over a step or past an
-/// obstacle's corner. Towards tiles that rest the edges stay as they were `published`.
-std::uint8_t open_edges(const VertexRef& from, const StepRule& rule, std::uint8_t published);
+/// obstacle's corner. The edges to tiles that rest, or whose MapTile::judged is not `version`, stay as they
+/// were `published`.
+std::uint8_t open_edges(const VertexRef& from, std::int64_t version, std::uint8_t published);
 
 }  // namespace floornav

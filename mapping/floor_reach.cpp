@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint8_t kAllSides = 0b01010101;
 
 bool step_open(const VertexRef& from, std::size_t k) {
-  return ((from.tile->steps_open[from.index()] >> k) & 1U) != 0;
+  return (((*from.tile->steps_open)[from.index()] >> k) & 1U) != 0;
 }
 
 template <class Visit>
@@ -30,10 +30,10 @@ void for_each_in_ring(std::int32_t ring, Visit visit) {
 
 }  // namespace
 
-FloorReach::FloorReach(float max_step_m, float resolution_m, float max_rise)
-    : max_step_m_(max_step_m), rise_per_vertex_m_(resolution_m * max_rise) {
+FloorReach::FloorReach(const StepRule& rule, float max_rise)
+    : rule_(rule), rise_per_vertex_m_(rule.resolution_m * max_rise) {
   constexpr float kContact_m = 0.25F;
-  contact_range_ = std::clamp(static_cast<std::int32_t>(std::lround(kContact_m / resolution_m)), 2, 10);
+  contact_range_ = std::clamp(static_cast<std::int32_t>(std::lround(kContact_m / rule.resolution_m)), 2, 10);
 }
 
 void FloorReach::grow(std::vector<MapTile*>& work, std::span<const VertexRef> seeds, std::int64_t version) {
@@ -60,6 +60,7 @@ void FloorReach::enter(const VertexRef& place, std::vector<MapTile*>& work, std:
   queue_.push_back(place);
   if (place.tile->judged == version) return;
   place.tile->judged = version;
+  open_steps(*place.tile, rule_);
   work.push_back(place.tile);
 }
 
@@ -85,14 +86,14 @@ float FloorReach::unexplained_step(const VertexRef& from, std::int32_t dx, std::
 }
 
 FloorReach::Contact FloorReach::contact_of(const VertexRef& from) const {
-  if (from.tile->steps_open[from.index()] == kAllSides) return Contact::kNone;
+  if (((*from.tile->steps_open)[from.index()] & kAllSides) == kAllSides) return Contact::kNone;
   for (std::int32_t ring = 1; ring <= contact_range_; ++ring) {
     float least_m = std::numeric_limits<float>::infinity();
     for_each_in_ring(ring, [&](std::int32_t dx, std::int32_t dy) {
       const VertexRef to = from.moved(dx, dy);
       if (to && to.vertex().is(Vertex::kFloor)) least_m = std::min(least_m, unexplained_step(from, dx, dy));
     });
-    if (least_m > max_step_m_ && std::isfinite(least_m)) return Contact::kStep;
+    if (least_m > rule_.max_step_m && std::isfinite(least_m)) return Contact::kStep;
     if (std::isfinite(least_m)) return Contact::kLevel;
   }
   return Contact::kNone;

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "mapping/map_tile.hpp"
+#include "mapping/edges.hpp"
 
 namespace floornav {
 
@@ -13,12 +13,12 @@ namespace floornav {
 class FloorReach {
  public:
   /// `max_rise`: per metre, of the steepest floor that the robot drives.
-  FloorReach(float max_step_m, float resolution_m, float max_rise);
+  FloorReach(const StepRule& rule, float max_rise);
 
   /// Grows the robot's floor (Vertex::kFloor) anew over open steps through the tiles of `work`, from the
   /// seeds and from the floor of the tiles around, which stays as it was. Tiles that the floor grew into
   /// beyond them are appended to `work`. MapTile::judged of the tiles in work must be `version`, of no other
-  /// tile.
+  /// tile. All of them must have, and then have, their MapTile::steps_open.
   void grow(std::vector<MapTile*>& work, std::span<const VertexRef> seeds, std::int64_t version);
 
   /// Sets Vertex::kCutOff on the drivable parts of `work` that lie beside the robot's floor with only steps
@@ -40,7 +40,7 @@ class FloorReach {
   [[nodiscard]] Contact contact_of(const VertexRef& from) const;
   [[nodiscard]] float unexplained_step(const VertexRef& from, std::int32_t dx, std::int32_t dy) const;
 
-  float max_step_m_;
+  StepRule rule_;
   float rise_per_vertex_m_;  ///< of the steepest ramp that the robot drives
   std::int32_t contact_range_;
   std::vector<VertexRef> queue_;

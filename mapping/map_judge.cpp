@@ -42,7 +42,7 @@ void add_known_floor(MapTile& tile, std::vector<VertexRef>& seeds) {
 MapJudge::MapJudge(const MappingSettings& settings, const RobotSettings& robot)
     : settings_(settings),
       rule_{static_cast<float>(step_limit_m(robot)), static_cast<float>(settings.resolution_m)},
-      reach_(rule_.max_step_m, rule_.resolution_m, static_cast<float>(steepest_rise(robot))),
+      reach_(rule_, static_cast<float>(steepest_rise(robot))),
       floor_(settings.resolution_m),
       min_belief_(static_cast<float>(settings.min_belief > 0 ? settings.min_belief : least_belief(robot))),
       max_rise_(static_cast<float>(steepest_rise(robot))) {}
@@ -112,13 +112,13 @@ bool MapJudge::judge(MapTile& tile, const Pose& T_world_body) {
   return differs;
 }
 
-bool MapJudge::publish_edges(MapTile& tile) const {
+bool MapJudge::publish_edges(MapTile& tile) {
   bool differs = false;
   for (std::int32_t y = 0; y < MapTile::kSide; ++y) {
     for (std::int32_t x = 0; x < MapTile::kSide; ++x) {
       const VertexRef place{&tile, x, y};
       std::uint8_t& edges = tile.grid->edges[place.index()];
-      const std::uint8_t before = std::exchange(edges, open_edges(place, rule_, edges));
+      const std::uint8_t before = std::exchange(edges, open_edges(place, tile.judged, edges));
       differs = differs || edges != before;
     }
   }
@@ -148,9 +148,12 @@ std::vector<CellIndex> MapJudge::refresh(const std::vector<CellIndex>& dirty, co
     tile->publish_in(map.make(tile->index));
     if (judge(*tile, T_world_body)) changed.push_back(tile->index);
   }
+  const std::size_t judged = work.size();
   add_neighbours(work, version);
+  for (MapTile* tile : std::span(work).subspan(judged)) open_steps(*tile, rule_);
   for (MapTile* tile : work)
     if (publish_edges(*tile)) changed.push_back(tile->index);
+  for (MapTile* tile : work) tile->steps_open.reset();
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   for (const CellIndex index : changed) map.make(index).version = version;

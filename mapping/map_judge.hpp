@@ -35,7 +35,7 @@ class MapJudge {
   bool take_summary(std::span<const CellMemory> cells, std::int32_t side, MapTile& tile, std::size_t i) const;
   bool judge(MapTile& tile, const Pose& T_world_body);
   bool judge_vertex(const VertexRef& place, float floor_m);
-  [[nodiscard]] bool publish_edges(MapTile& tile) const;
+  static bool publish_edges(MapTile& tile);
 
   MappingSettings settings_;
   StepRule rule_;

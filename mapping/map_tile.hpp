@@ -23,8 +23,8 @@ struct MapTile {
   CellStore cells;                       ///< vertex by vertex; those of a vertex row by row along x
   std::vector<Surface> surfaces;         ///< of the vertices, where several cells make one
   std::array<Vertex, GridTile::kVertices> vertices{};
-  std::array<std::uint8_t, GridTile::kVertices>
-      steps_open{};                          ///< bit k as GridTile::edges, even k only: by heights alone
+  using Steps = std::array<std::uint8_t, GridTile::kVertices>;
+  std::unique_ptr<Steps> steps_open;         ///< while it is judged: as GridTile::edges, by heights alone
   std::bitset<GridTile::kVertices> touched;  ///< have new evidence since the last refresh
   bool floor_is_known = false;               ///< woken: Vertex::kFloor is from before and seeds the floor
   bool overhead_moved = false;               ///< of some cell, since the last refresh

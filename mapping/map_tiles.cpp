@@ -16,23 +16,8 @@ double distance_m(CellIndex tile, const Eigen::Vector2d& place_m, double side_m)
 
 /// Takes a tile out of its neighbours' sight.
 void part(const MapTile& tile) {
-  for (std::size_t k = 0; k < 8; ++k) {
-    MapTile* const beside = tile.neighbours[k];
-    if (beside == nullptr) continue;
-    const std::size_t back = (k + 4) % 8;
-    beside->neighbours[back] = nullptr;
-    for (std::int32_t i = 0; i < MapTile::kSide && k % 2 == 0; ++i) {
-      const std::int32_t last = MapTile::kSide - 1;
-      const VertexRef border{beside,
-                             back == 0   ? last
-                             : back == 4 ? 0
-                                         : i,
-                             back == 2   ? last
-                             : back == 6 ? 0
-                                         : i};
-      beside->steps_open[border.index()] &= static_cast<std::uint8_t>(~(1U << back));
-    }
-  }
+  for (std::size_t k = 0; k < 8; ++k)
+    if (tile.neighbours[k] != nullptr) tile.neighbours[k]->neighbours[(k + 4) % 8] = nullptr;
 }
 
 }  // namespace

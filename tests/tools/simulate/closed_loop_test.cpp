@@ -73,7 +73,7 @@ TEST(ClosedLoop, SeesThePeopleWhoWalkThroughTheWorld) {
     EXPECT_GT(record.driven_m.size(), 10U);
     int count = 0;
     for (const auto& [index, tile] : record.map.map().tiles())
-      count += static_cast<int>(std::count(tile->state.begin(), tile->state.end(), VertexState::kBlocked));
+      count += static_cast<int>(tile->state.count(VertexState::kBlocked));
     return count;
   };
   const int alone = blocked();
