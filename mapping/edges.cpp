@@ -1,7 +1,6 @@
 #include "mapping/edges.hpp"
 
 #include <cmath>
-#include <memory>
 
 namespace floornav {
 namespace {
@@ -67,7 +66,7 @@ bool is_rim(const VertexRef& place, const StepRule& rule) {
 }
 
 void open_steps(MapTile& tile, const StepRule& rule) {
-  tile.steps_open = std::make_unique<MapTile::Steps>();
+  tile.unfold();
   MapTile::Steps& steps = *tile.steps_open;
   const auto join = [&](const VertexRef& from, const Surface& surface, std::size_t k) {
     const VertexRef to = from.neighbour(k);

@@ -153,7 +153,7 @@ std::vector<CellIndex> MapJudge::refresh(const std::vector<CellIndex>& dirty, co
   for (MapTile* tile : std::span(work).subspan(judged)) open_steps(*tile, rule_);
   for (MapTile* tile : work)
     if (publish_edges(*tile)) changed.push_back(tile->index);
-  for (MapTile* tile : work) tile->steps_open.reset();
+  for (MapTile* tile : work) tile->fold();
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   for (const CellIndex index : changed) map.make(index).version = version;

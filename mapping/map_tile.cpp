@@ -6,6 +6,19 @@
 
 namespace floornav {
 
+void MapTile::unfold() {
+  steps_open = std::make_unique<Steps>();
+  if (!surfaces.empty()) return;
+  surfaces.resize(vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (vertices[i].is(Vertex::kSeen)) surfaces[i] = cells.decider(i);
+}
+
+void MapTile::fold() {
+  steps_open.reset();
+  if (cells.size() == vertices.size()) surfaces = {};
+}
+
 float MapTile::overhead_z_m(std::size_t vertex) const {
   const std::size_t per_vertex = cells.size() / vertices.size();
   float lowest_m = std::numeric_limits<float>::quiet_NaN();

@@ -21,16 +21,20 @@ struct MapTile {
   CellIndex index;
   std::array<MapTile*, 8> neighbours{};  ///< as kNeighbourX, kNeighbourY; null where there is none yet
   CellStore cells;                       ///< vertex by vertex; those of a vertex row by row along x
-  std::vector<Surface> surfaces;         ///< of the vertices, where several cells make one
+  std::vector<Surface> surfaces;  ///< of the vertices, where several cells make one or while it is judged
   std::array<Vertex, GridTile::kVertices> vertices{};
   using Steps = std::array<std::uint8_t, GridTile::kVertices>;
-  std::unique_ptr<Steps> steps_open;         ///< while it is judged: as GridTile::edges, by heights alone
+  std::unique_ptr<Steps> steps_open;         ///< as GridTile::edges, by heights alone; while it is judged
   std::bitset<GridTile::kVertices> touched;  ///< have new evidence since the last refresh
   bool floor_is_known = false;               ///< woken: Vertex::kFloor is from before and seeds the floor
   bool overhead_moved = false;               ///< of some cell, since the last refresh
   bool high_tops = false;                    ///< some cell has had one: CellMemory::has_high_top()
   std::int64_t judged = -1;                  ///< map version at which it was last judged
   GridTile* grid = nullptr;                  ///< what is published of it
+
+  /// Lays out what the judgement of all its vertices asks for again and again, and puts it away.
+  void unfold();
+  void fold();
 
   /// What decides in a vertex that was seen.
   [[nodiscard]] Surface surface(std::size_t vertex) const {
