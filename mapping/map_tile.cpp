@@ -16,7 +16,7 @@ void MapTile::unfold() {
 
 void MapTile::fold() {
   steps_open.reset();
-  if (cells.size() == vertices.size()) surfaces = {};
+  if (cells.size() == vertices.size()) std::vector<Surface>().swap(surfaces);
 }
 
 float MapTile::overhead_z_m(std::size_t vertex) const {

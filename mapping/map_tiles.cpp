@@ -155,8 +155,8 @@ VertexRef MapTiles::find_vertex(CellIndex vertex) const {
 
 std::int64_t MapTiles::memory_bytes() const {
   std::int64_t sum = 0;
-  constexpr std::size_t kEntry = 64;  // of the hash map
-  for (const auto& [index, tile] : tiles_) sum += tile->memory_bytes();
+  constexpr std::size_t kEntry = 64;  // of the hash maps
+  for (const auto& [index, tile] : tiles_) sum += tile->memory_bytes() + static_cast<std::int64_t>(kEntry);
   for (const auto& [index, bytes] : resting_) sum += static_cast<std::int64_t>(bytes.capacity() + kEntry);
   return sum;
 }

@@ -189,6 +189,17 @@ TEST(MapMemory, WhatTheRobotLeavesBehindIsPackedAndComesBackUnchanged) {
   EXPECT_TRUE(std::isfinite(map.terrain().height_m(map.terrain().lattice().cell_of(1.75, 0))));
 }
 
+TEST(MapMemory, ASquareMetreNearTheRobotTakesLessThan8Kilobytes) {
+  constexpr double kSide_m = 3 * 1.6;  // whole tiles
+  WorldMap map(MappingSettings{}, RobotSettings{});
+  for (int i = 0; i < 3; ++i) {
+    map.integrate(see(flat(), {0, kSide_m, 0, kSide_m}));
+    map.refresh();
+    map.refresh_terrain();
+  }
+  EXPECT_LT(static_cast<double>(map.memory_bytes()), 8000 * kSide_m * kSide_m);
+}
+
 TEST(MapMemory, APathLeadsAcrossTheBorderOfWhatIsPacked) {
   WorldMap map(MappingSettings{}, RobotSettings{});
   for (int i = 0; i < 40; ++i) {
