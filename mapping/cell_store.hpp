@@ -27,8 +27,9 @@ class CellStore {
 
   [[nodiscard]] std::size_t size() const { return blocks_.size() * kBlock; }
   [[nodiscard]] bool is_empty(std::size_t slot) const { return word(slot) == 0; }
-  /// Whether a cell has an upper level or something overhead.
+  /// Whether a cell, or any, has an upper level or something overhead.
   [[nodiscard]] bool has_more(std::size_t slot) const { return (word(slot) & kMore) != 0; }
+  [[nodiscard]] bool has_more() const { return !more_.empty(); }
   [[nodiscard]] CellMemory at(std::size_t slot) const;
   /// CellMemory::decider() of a cell; some surface where there is none.
   [[nodiscard]] Surface decider(std::size_t slot) const {

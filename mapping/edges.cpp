@@ -18,10 +18,11 @@ bool side_open(const VertexRef& from, std::size_t k) {
   return step_open(from, k) && from.neighbour(k & 7U).vertex().is(Vertex::kFree);
 }
 
+/// The ways around the corner are looked at from both ends: a step is open in both directions.
 bool diagonal_open(const VertexRef& from, std::size_t k, std::uint8_t sides) {
-  if ((sides & bit(k - 1)) == 0 || (sides & bit(k + 1)) == 0) return false;
-  return step_open(from, k) && side_open(from.neighbour((k - 1) & 7U), k + 1) &&
-         side_open(from.neighbour((k + 1) & 7U), k - 1);
+  if ((sides & bit(k - 1)) == 0 || (sides & bit(k + 1)) == 0 || !step_open(from, k)) return false;
+  const VertexRef to = from.neighbour(k);
+  return to.vertex().is(Vertex::kFree) && step_open(to, k + 3) && step_open(to, k + 5);
 }
 
 bool on_border(const VertexRef& place) {

@@ -20,8 +20,9 @@ void MapTile::fold() {
 }
 
 float MapTile::overhead_z_m(std::size_t vertex) const {
-  const std::size_t per_vertex = cells.size() / vertices.size();
   float lowest_m = std::numeric_limits<float>::quiet_NaN();
+  if (!cells.has_more()) return lowest_m;
+  const std::size_t per_vertex = cells.size() / vertices.size();
   for (std::size_t slot = vertex * per_vertex; slot < (vertex + 1) * per_vertex; ++slot)
     if (cells.has_more(slot)) lowest_m = std::fmin(lowest_m, cells.at(slot).overhead_z_m());
   return lowest_m;

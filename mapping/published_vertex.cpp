@@ -14,9 +14,9 @@ constexpr float kSigmaNoise = 1.4F;
 template <class Stored>
 Stored quantised(float value, float unit) {
   using Limits = std::numeric_limits<Stored>;
-  const float counts = std::round(value / unit);
-  return static_cast<Stored>(
-      std::clamp(counts, static_cast<float>(Limits::min()), static_cast<float>(Limits::max())));
+  const float counts =
+      std::clamp(value / unit, static_cast<float>(Limits::min()), static_cast<float>(Limits::max()));
+  return static_cast<Stored>(counts + std::copysign(0.5F, counts));
 }
 
 /// What `surface` is in the units of a grid tile.
