@@ -44,11 +44,12 @@ std::vector<CellStore::More>::const_iterator CellStore::place_of(std::size_t slo
 CellMemory CellStore::at(std::size_t slot) const {
   const std::uint64_t own = word(slot);
   if (own == 0) return {};
-  const Level lower = PackedLevel(own).level(level_);
   const auto no_return_frames = static_cast<std::int32_t>(own & kNoReturn);
-  if ((own & kMore) == 0) return {lower, {}, std::numeric_limits<float>::quiet_NaN(), no_return_frames};
+  if ((own & kMore) == 0)
+    return {PackedLevel(own).level(level_), {}, std::numeric_limits<float>::quiet_NaN(), no_return_frames};
   const More& more = *place_of(slot);
-  return {lower, PackedLevel(more.upper).level(level_), more.overhead_z_m, no_return_frames};
+  return {PackedLevel(own).level(level_), PackedLevel(more.upper).level(level_), more.overhead_z_m,
+          no_return_frames};
 }
 
 std::uint64_t CellStore::deciding_word(std::size_t slot) const {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,10 +32,12 @@ class CellStore {
   [[nodiscard]] bool has_more(std::size_t slot) const { return (word(slot) & kMore) != 0; }
   [[nodiscard]] bool has_more() const { return !more_.empty(); }
   [[nodiscard]] CellMemory at(std::size_t slot) const;
-  /// CellMemory::decider() of a cell; some surface where there is none.
-  [[nodiscard]] Surface decider(std::size_t slot) const {
+  /// CellMemory::decider() of a cell.
+  [[nodiscard]] std::optional<Surface> decider(std::size_t slot) const {
     const std::uint64_t own = word(slot);
-    return PackedLevel((own & kMore) == 0 ? own : deciding_word(slot)).surface(level_);
+    const PackedLevel level((own & kMore) == 0 ? own : deciding_word(slot));
+    if (level.support() < Level::kTrusted) return std::nullopt;
+    return level.surface(level_);
   }
   void set(std::size_t slot, const CellMemory& memory);
 

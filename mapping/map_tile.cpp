@@ -10,8 +10,7 @@ void MapTile::unfold() {
   steps_open = std::make_unique<Steps>();
   if (!surfaces.empty()) return;
   surfaces.resize(vertices.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    if (vertices[i].is(Vertex::kSeen)) surfaces[i] = cells.decider(i);
+  for (std::size_t i = 0; i < vertices.size(); ++i) surfaces[i] = cells.decider(i).value_or(Surface{});
 }
 
 void MapTile::fold() {

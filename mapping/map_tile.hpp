@@ -38,7 +38,7 @@ struct MapTile {
 
   /// What decides in a vertex that was seen.
   [[nodiscard]] Surface surface(std::size_t vertex) const {
-    return surfaces.empty() ? cells.decider(vertex) : surfaces[vertex];
+    return surfaces.empty() ? cells.decider(vertex).value_or(Surface{}) : surfaces[vertex];
   }
   /// z of the lowest thing above the robot's height; NaN: none.
   [[nodiscard]] float overhead_z_m(std::size_t vertex) const;

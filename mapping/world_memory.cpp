@@ -51,7 +51,7 @@ CellView WorldMemory::view_of(const FloorEvidence& evidence, Entries entries) {
     view.no_return = view.no_return || cell.no_return;
     reader_.read(cell, evidence, coverage_.of(evidence, i), sightings_);
   }
-  std::ranges::stable_sort(sightings_, {}, &Sighting::z_m);
+  if (sightings_.size() > 1) std::ranges::stable_sort(sightings_, {}, &Sighting::z_m);
   return view;
 }
 
