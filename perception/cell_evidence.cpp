@@ -14,6 +14,7 @@ constexpr float kMinAboveShare = 0.02F;  ///< of a cell's points, to make a top 
 constexpr std::size_t kMinAbovePoints = 3;
 constexpr float kAboveSigmas = 4.0F;
 constexpr float kTopQuantile = 0.9F;
+constexpr float kTopQuantileSigmas = 1.2816F;  ///< of a normal distribution
 
 /// Sums the points of one surfel.
 DecidingSurfel part_of(std::span<const CellPoint> points, std::int16_t surfel) {
@@ -59,6 +60,22 @@ float quantile(std::vector<float>& values, float share) {
   const auto place = static_cast<std::size_t>(share * static_cast<float>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place), values.end());
   return values[place];
+}
+
+/// Top of a surfel's points, or of those on none, as they were measured: their quantile, less what noise
+/// makes of it, so that the top of what is level is its mean.
+float top_of_measured(std::span<const CellPoint> points, std::int16_t surfel, float mean_z_m,
+                      std::vector<float>& heights) {
+  heights.clear();
+  float var_m2 = 0.0F;
+  for (const CellPoint& p : points) {
+    if (surfel >= 0 && p.surfel != surfel) continue;
+    heights.push_back(p.z_m);
+    var_m2 += p.var_m2;
+  }
+  const float above_m = quantile(heights, kTopQuantile) - mean_z_m;
+  const float noise_m = kTopQuantileSigmas * std::sqrt(var_m2 / static_cast<float>(heights.size()));
+  return mean_z_m + (above_m > noise_m ? std::sqrt(above_m * above_m - noise_m * noise_m) : 0.0F);
 }
 
 /// Top of what stands clearly above `plane_top`, or `plane_top` where too few points do.
@@ -108,21 +125,22 @@ void summarize_cell(std::span<const CellPoint> points, const DecidingSurfel& dec
   if (cell.surfel >= 0) {
     cell.mean_z_m = decider.mean_z_m + rise_m;
     cell.var_z_m2 = variance_of(decider.rise);
-    cell.top_z_m = robust_top(points, decider.max_z_m + rise_m, scratch.heights);
+    const float own_top_z_m = decider.slanted
+                                  ? top_of_measured(points, cell.surfel, decider.mean_z_m, scratch.heights)
+                                  : decider.max_z_m + rise_m;
+    cell.top_z_m = robust_top(points, own_top_z_m, scratch.heights);
     return;
   }
   double z = 0.0;
   CellRise sums;
-  scratch.heights.clear();
   for (const CellPoint& p : points) {
     z += static_cast<double>(p.z_m);
     sums +=
         {.group = CellRise::kNone, .points = 1, .rise_m = 0.0F, .var_m2 = p.var_m2, .common_m2 = p.common_m2};
-    scratch.heights.push_back(p.z_m);
   }
   cell.mean_z_m = static_cast<float>(z / sums.points);
   cell.var_z_m2 = variance_of(sums);
-  cell.top_z_m = quantile(scratch.heights, kTopQuantile);
+  cell.top_z_m = top_of_measured(points, cell.surfel, cell.mean_z_m, scratch.heights);
 }
 
 }  // namespace floornav

@@ -6,6 +6,7 @@
 #include "perception/cell_points.hpp"
 #include "perception/cell_rise.hpp"
 #include "perception/evidence.hpp"
+#include "perception/side_end.hpp"
 
 namespace floornav {
 
@@ -13,6 +14,7 @@ namespace floornav {
 struct CellScratch {
   std::vector<std::int32_t> surfel_points;  ///< a surfel: its points in the cell, 0 between calls
   std::vector<float> heights;
+  std::vector<EndPixel> end_pixels;
 };
 
 /// What the points on the surfel that decides a cell say together.
@@ -20,7 +22,8 @@ struct DecidingSurfel {
   std::int16_t surfel = -1;  ///< index into FloorEvidence::surfels; -1: none decides
   float mean_z_m = 0.0F;     ///< of its points as moved onto the plane
   float max_z_m = 0.0F;
-  CellRise rise;  ///< its group is left to the caller
+  bool slanted = false;  ///< left to the caller: its points count as measured
+  CellRise rise;         ///< its group is left to the caller
 
   /// Noise throws a point no higher than this.
   [[nodiscard]] float thrown_m() const;
@@ -36,8 +39,8 @@ DecidingSurfel find_deciding_surfel(std::span<const CellPoint> points, std::size
 ///
 /// The mean is the deciding plane's height there plus the rise above it that is no accident (`rise_m`). The
 /// top is the plane's top unless enough points stand clearly above it; then it is a quantile of those, never
-/// the highest point. Where no surfel decides they are the points' own mean and quantile. `alike` points
-/// count as one measurement.
+/// the highest point. Where no surfel decides, or a slanted one, they are the points' own mean and quantile,
+/// without what their noise adds to it.
 void summarize_cell(std::span<const CellPoint> points, const DecidingSurfel& decider, float rise_m,
                     CellScratch& scratch, CellEvidence& cell);
 

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "perception/uprightness.hpp"
+
 // Vectors of a size unknown to the compiler cannot be members: such processors take the next best target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
@@ -15,8 +17,6 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Steeper planes have no height of their own at a place: their points count as they lie on the plane.
-constexpr float kMinUpright = 0.5F;
 /// A ray this close to the plane's own direction says nothing about where it meets it.
 constexpr float kMinFacing = 0.02F;
 
@@ -60,13 +60,16 @@ HWY_INLINE void place(D lanes, std::size_t i, const RoiCloud& cloud, std::span<c
   const auto meets = hn::And(on_plane, hn::Gt(facing, hn::Set(lanes, kMinFacing)));
   const V depth = hn::IfThenElse(meets, hn::Div(one, inverse_depth), z);
   const V upright = of_plane(planes.upright);
-  const auto has_height = hn::And(on_plane, hn::Gt(upright, hn::Set(lanes, kMinUpright)));
+  const auto has_height = hn::And(on_plane, hn::Gt(upright, hn::Set(lanes, kLevelUpright)));
   const V down = turned(2);
   const V per_depth =
       hn::IfThenElse(has_height, hn::Div(facing, upright), down);  // vertical metres a metre of depth
   const V sigma_depth = hn::Div(hn::Mul(z, z), hn::LoadU(lanes, cloud.certainty.data() + i));
   const V sigma = hn::Mul(sigma_depth, per_depth);
-  hn::StoreU(hn::Add(hn::Set(lanes, frame.sensor_z), hn::Mul(depth, down)), lanes, out.z_m.data() + i);
+  const auto is_side = hn::And(on_plane, hn::Le(upright, hn::Set(lanes, kSideUpright)));
+  const V depth_of_height = hn::IfThenElse(hn::Or(has_height, is_side), depth, z);
+  hn::StoreU(hn::Add(hn::Set(lanes, frame.sensor_z), hn::Mul(depth_of_height, down)), lanes,
+             out.z_m.data() + i);
   hn::StoreU(hn::IfThenElseZero(has_height, hn::Mul(hn::Sub(depth, z), per_depth)), lanes,
              out.rise_m.data() + i);
   hn::StoreU(hn::Mul(sigma, sigma), lanes, out.var_m2.data() + i);

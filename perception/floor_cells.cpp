@@ -4,7 +4,9 @@
 #include <functional>
 #include <limits>
 
+#include "perception/side_end.hpp"
 #include "perception/top_edge.hpp"
+#include "perception/uprightness.hpp"
 
 namespace floornav {
 
@@ -55,7 +57,7 @@ void FloorCells::add(int first, int end, const MeasuredImage& image, const RoiCl
                              parallel, missing_floor_);
   find_seen(is_near, known);
   noise_.measure(first, end, cloud, label, known, parallel);
-  summarize(view, noise_.alike_px(), parallel, evidence);
+  summarize(image, view, noise_.alike_px(), parallel, evidence);
 }
 
 void FloorCells::find_seen(bool is_near, std::span<const SectionResult> sections) {
@@ -72,8 +74,8 @@ void FloorCells::find_seen(bool is_near, std::span<const SectionResult> sections
 }
 
 /// Adds the cells that were seen to the evidence.
-void FloorCells::summarize(const SensorView& view, float alike_px, Parallel& parallel,
-                           FloorEvidence& evidence) {
+void FloorCells::summarize(const MeasuredImage& image, const SensorView& view, float alike_px,
+                           Parallel& parallel, FloorEvidence& evidence) {
   const std::size_t first = evidence.cells.size();
   evidence.cells.resize(first + seen_.size());
   deciders_.resize(seen_.size());
@@ -89,8 +91,10 @@ void FloorCells::summarize(const SensorView& view, float alike_px, Parallel& par
   parallel.run(static_cast<int>(pieces), std::ref(decide_piece));
   const auto summarize_piece = [&](int piece, int worker) {
     each_of(piece, [&](std::size_t i) {
-      summarize_one(i, view, alike_px, evidence, scratch_[static_cast<std::size_t>(worker)],
-                    evidence.cells[first + i]);
+      CellScratch& scratch = scratch_[static_cast<std::size_t>(worker)];
+      CellEvidence& cell = evidence.cells[first + i];
+      summarize_one(i, view, alike_px, evidence, scratch, cell);
+      if (cell.surfel >= 0) end_side(deciders_[i], image, view, evidence, scratch, cell);
     });
   };
   parallel.run(static_cast<int>(pieces), std::ref(summarize_piece));
@@ -103,6 +107,8 @@ void FloorCells::decide(std::size_t seen, std::span<const Surfel> surfels, CellS
   decider = points.empty() ? DecidingSurfel{} : find_deciding_surfel(points, surfels.size(), scratch);
   if (decider.surfel < 0) return;
   const bool floor = surfels[static_cast<std::size_t>(decider.surfel)].dominant;
+  const float upright = surfels[static_cast<std::size_t>(decider.surfel)].normal.z();
+  decider.slanted = upright > kSideUpright && upright <= kLevelUpright;
   decider.rise.group = floor ? CellRise::kFloor : decider.surfel;
   rises_[static_cast<std::size_t>(seen_[seen])] = decider.rise;
 }
@@ -122,8 +128,23 @@ void FloorCells::summarize_one(std::size_t seen, const SensorView& view, float a
   const float rise_m =
       deciders_[seen].surfel < 0 ? 0.0F : significant_rise(rises_, window_, number, significance, noise);
   summarize_cell(points, deciders_[seen], rise_m, scratch, cell);
-  if (cell.surfel >= 0)
-    cell.top_z_m = side_top_z_m(cell.top_z_m, deciders_[seen].thrown_m(), cell, view, evidence);
+}
+
+/// Lets the points of a thing's top that pass for points of its side not make the side higher.
+void FloorCells::end_side(const DecidingSurfel& decider, const MeasuredImage& image, const SensorView& view,
+                          const FloorEvidence& evidence, CellScratch& scratch, CellEvidence& cell) const {
+  constexpr float kRoom_m = 0.01F;
+  const Surfel& side = evidence.surfels[static_cast<std::size_t>(cell.surfel)];
+  if (side.dominant) return;
+  std::optional<float> top_z_m = edge_with_top_z_m(cell.top_z_m, decider.thrown_m(), cell, view, evidence);
+  if (!top_z_m && side.normal.z() <= kSideUpright) {
+    const Lattice& lattice = evidence.lattice;
+    const Eigen::Vector2d middle(lattice.center_of(cell.cell.ix), lattice.center_of(cell.cell.iy));
+    top_z_m = side_end_z_m(side, {middle, lattice.pitch_m, cell.top_z_m, decider.thrown_m() + kRoom_m}, image,
+                           view, scratch.end_pixels);
+  }
+  cell.top_z_m = top_z_m.value_or(cell.top_z_m);
+  if (side.normal.z() <= kSideUpright) cell.mean_z_m = std::min(cell.mean_z_m, cell.top_z_m);
 }
 
 }  // namespace floornav

@@ -37,10 +37,13 @@ class FloorCells {
 
  private:
   void find_seen(bool is_near, std::span<const SectionResult> sections);
-  void summarize(const SensorView& view, float alike_px, Parallel& parallel, FloorEvidence& evidence);
+  void summarize(const MeasuredImage& image, const SensorView& view, float alike_px, Parallel& parallel,
+                 FloorEvidence& evidence);
   void decide(std::size_t seen, std::span<const Surfel> surfels, CellScratch& scratch);
   void summarize_one(std::size_t seen, const SensorView& view, float alike_px, const FloorEvidence& evidence,
                      CellScratch& scratch, CellEvidence& cell) const;
+  void end_side(const DecidingSurfel& decider, const MeasuredImage& image, const SensorView& view,
+                const FloorEvidence& evidence, CellScratch& scratch, CellEvidence& cell) const;
 
   RoiSettings roi_;
   CellSettings settings_;

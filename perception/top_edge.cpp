@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "perception/uprightness.hpp"
+
 namespace floornav {
 
 namespace {
@@ -14,9 +16,6 @@ constexpr double kHidden_m = 0.15;
 /// A side's normal points up less than this, its top's by so much more than its own.
 constexpr float kSteepest = 0.9F;
 constexpr float kFlatter = 0.15F;
-/// Surfels that point up more have a height of their own at a place: noise throws their points off it, those
-/// of others along the ray.
-constexpr float kLeastUpright = 0.5F;
 constexpr double kParallel = 1e-6;
 
 /// z above a cell's middle, and how it grows with x and y.
@@ -51,9 +50,10 @@ struct Part {
   }
 };
 
-/// How far noise along the ray throws a point up.
+/// How far noise along the ray throws a point up; `thrown_m` is off the surface where that has a height of
+/// its own at a place.
 float thrown_up_m(const Surfel& side, float thrown_m, const Eigen::Vector2d& middle, const SensorView& view) {
-  if (side.normal.z() <= kLeastUpright) return thrown_m;
+  if (side.normal.z() <= kLevelUpright) return thrown_m;
   const Eigen::Vector3d ray =
       Eigen::Vector3d(middle.x(), middle.y(), side.centroid_m.z()) - view.T_world_sensor.translation();
   const double facing = std::abs(side.normal.cast<double>().dot(ray));
@@ -83,10 +83,10 @@ std::optional<float> edge_z_m(const Surfel& side, const Surfel& top, const Eigen
       std::max(height.at(nearest + part.begin * along), height.at(nearest + part.end * along)));
 }
 
-float side_top_z_m(float top_z_m, float thrown_m, const CellEvidence& cell, const SensorView& view,
-                   const FloorEvidence& evidence) {
+std::optional<float> edge_with_top_z_m(float top_z_m, float thrown_m, const CellEvidence& cell,
+                                       const SensorView& view, const FloorEvidence& evidence) {
   const Surfel& side = evidence.surfels[static_cast<std::size_t>(cell.surfel)];
-  if (side.dominant || side.normal.z() > kSteepest) return top_z_m;
+  if (side.dominant || side.normal.z() > kSteepest) return std::nullopt;
   const Eigen::Vector2d middle(evidence.lattice.center_of(cell.cell.ix),
                                evidence.lattice.center_of(cell.cell.iy));
   const double pitch_m = evidence.lattice.pitch_m;
@@ -101,7 +101,7 @@ float side_top_z_m(float top_z_m, float thrown_m, const CellEvidence& cell, cons
     edge = *z;
     found = true;
   }
-  return found ? edge : top_z_m;
+  return found ? std::optional(edge) : std::nullopt;
 }
 
 }  // namespace floornav

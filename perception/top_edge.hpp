@@ -14,11 +14,11 @@ namespace floornav {
 std::optional<float> edge_z_m(const Surfel& side, const Surfel& top, const Eigen::Vector2d& middle,
                               double pitch_m);
 
-/// How high a cell reaches that a side decides. Points of the top just behind the edge fit the side within
+/// Where a side ends at a flatter obstacle surfel. Points of the top just behind the edge fit the side within
 /// its noise, and lie too high when they are taken for points of it: where the side meets a flatter obstacle
 /// surfel near by, no farther below `top_z_m` than noise throws a point, it ends there. `thrown_m`: how far
-/// noise throws a point from the side, up or down.
-float side_top_z_m(float top_z_m, float thrown_m, const CellEvidence& cell, const SensorView& view,
-                   const FloorEvidence& evidence);
+/// noise throws a point from the side, up or down. Nothing where it meets none.
+std::optional<float> edge_with_top_z_m(float top_z_m, float thrown_m, const CellEvidence& cell,
+                                       const SensorView& view, const FloorEvidence& evidence);
 
 }  // namespace floornav

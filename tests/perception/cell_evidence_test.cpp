@@ -1,5 +1,7 @@
 #include "perception/cell_evidence.hpp"
 
+#include <cmath>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -53,6 +55,30 @@ TEST(CellEvidence, TheHighestSurfelWithAShareDecides) {
   points.pop_back();
   points.pop_back();
   EXPECT_EQ(summarized(points).surfel, 0);
+}
+
+/// 400 points of 1 cm of noise on what is level: their tenth highest are 1.3 cm too high.
+TEST(CellEvidence, TopOfWhatIsLevelIsItsMeanWithAPlaneOrWithout) {
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise(0.2F, std::sqrt(kVar_m2));
+  std::vector<CellPoint> points;
+  for (int i = 0; i < 400; ++i) points.push_back(on_nothing(noise(random)));
+  EXPECT_NEAR(summarized(points).top_z_m, 0.2F, 0.004F);
+  for (CellPoint& point : points) point.surfel = 1;
+  CellScratch scratch;
+  DecidingSurfel decider = find_deciding_surfel(points, 2, scratch);
+  decider.slanted = true;
+  CellEvidence cell;
+  summarize_cell(points, decider, 0.0F, scratch, cell);
+  EXPECT_NEAR(cell.top_z_m, 0.2F, 0.004F);
+}
+
+TEST(CellEvidence, TopOfAThingOnNoPlaneIsNearItsUpperEnd) {
+  std::vector<CellPoint> points;
+  for (int i = 0; i < 100; ++i) points.push_back(on_nothing(0.003F * static_cast<float>(i)));
+  const float top_m = summarized(points).top_z_m;
+  EXPECT_GT(top_m, 0.26F);
+  EXPECT_LE(top_m, 0.3F);
 }
 
 }  // namespace
