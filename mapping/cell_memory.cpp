@@ -29,16 +29,35 @@ void blend(Surface& memory, const Surface& view, float memory_var_m2) {
   memory.var_m2 = std::max((1.0F - gain) * memory.var_m2, memory_var_m2);
 }
 
+/// Of one surface that was a plane to one and a column to the other: both know its height, the plane its
+/// slope.
+void join(Level& level, Surface view, float memory_var_m2) {
+  Surface& column = level.column ? level : view;
+  const Surface& plane = level.column ? view : level;
+  column.gradient_x = plane.gradient_x;
+  column.gradient_y = plane.gradient_y;
+  column.column = false;
+  blend(level, view, memory_var_m2);
+}
+
+/// A plane tells more than a column; of a column a lower view may have seen a part only, unless more points
+/// speak for it than for a level that is not trusted.
+bool tells_more(const Sighting& sighting, const Level& level) {
+  if (!level.column) return false;
+  return !sighting.column || sighting.z_m > level.z_m ||
+         (!level.trusted() && sighting.points > level.support);
+}
+
 void support(Level& level, const Sighting& sighting, const FusionLimits& limits) {
   const std::int32_t sum = level.support + std::clamp(sighting.points, 1, Level::kPerFrame);
-  level.support = static_cast<std::uint8_t>(std::min(sum, Level::kMost));
-  const bool is_alike = level.column == sighting.column && fits(level, sighting, limits);
-  if (is_alike) {
+  if (!fits(level, sighting, limits)) {
+    if (tells_more(sighting, level)) static_cast<Surface&>(level) = sighting;
+  } else if (level.column == sighting.column) {
     blend(level, sighting, limits.memory_var_m2);
-  } else if (level.column && (!sighting.column || sighting.z_m > level.z_m)) {
-    static_cast<Surface&>(level) =
-        sighting;  // a plane tells more than a column; of a column a lower view may have seen a part only
+  } else {
+    join(level, sighting, limits.memory_var_m2);
   }
+  level.support = static_cast<std::uint8_t>(std::min(sum, Level::kMost));
 }
 
 /// A table top can be looked under: rays and floor far below a plane in its cell came in from the side and

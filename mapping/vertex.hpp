@@ -40,6 +40,7 @@ struct SquareSummary {
 /// The surface of `side` x `side` cells, row by row along x: their mean plane at the square's centre,
 /// weighted by variance; but the highest cell (section 4.6: "the highest of them"), with its height in its
 /// own place, where cells lie more than `step_m` and 3 sigma apart, or where none is more than a column.
+/// Cells that are as high as that within their noise tell its height together.
 SquareSummary summarise(std::span<const CellMemory> cells, std::int32_t side, float pitch_m, float step_m);
 
 }  // namespace floornav

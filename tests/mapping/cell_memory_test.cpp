@@ -169,6 +169,28 @@ TEST(CellMemory, ColumnIsAsHighAsItsHighestView) {
   EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.6F);
 }
 
+TEST(CellMemory, ColumnThrownUpByOnePointIsAsHighAsThoseThatMorePointsShow) {
+  CellMemory memory;
+  fuse(memory, {column(0.3F, 1)});
+  fuse(memory, {column(0.2F, 4)});
+  EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.2F);
+  fuse(memory, {column(0.1F, 10)});
+  EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.2F);
+}
+
+TEST(CellMemory, OfTheSameSurfaceAColumnKnowsTheHeightAndAPlaneTheSlope) {
+  Sighting slanted = plane(0.21F, 0.02F);
+  slanted.gradient_x = 0.3F;
+  for (const bool plane_first : {true, false}) {
+    CellMemory memory;
+    fuse(memory, {plane_first ? slanted : column(0.2F)});
+    fuse(memory, {plane_first ? column(0.2F) : slanted});
+    EXPECT_FALSE(memory.decider()->column);
+    EXPECT_FLOAT_EQ(memory.decider()->gradient_x, 0.3F);
+    EXPECT_NEAR(memory.decider()->z_m, 0.202F, 1e-6F);  // 1 and 2 cm of uncertainty: weights 4 and 1
+  }
+}
+
 TEST(CellMemory, TableTopFirstFloorBelowLater) {
   CellMemory memory;
   fuse(memory, {plane(0.7F)});

@@ -39,6 +39,20 @@ TEST(SquareOfCells, AcrossAnEdgeIsAsHighAsTheHighestCellInItsPlace) {
   EXPECT_FLOAT_EQ(summary.surface.z_m, 0.3F);
 }
 
+/// Cells that are alike within their noise share their height: the highest of many alone is too high.
+TEST(SquareOfCells, AcrossAnEdgeCellsAsHighAsTheHighestTellItsHeightTogether) {
+  const std::array<CellMemory, 4> cells{cell(0.0F, 0.0F), cell(0.298F, 0.0F), cell(0.29F, 0.0F),
+                                        cell(0.3F, 0.0F)};
+  const SquareSummary summary = summarise(cells, 2, kPitch_m, kStep_m);
+  EXPECT_TRUE(summary.stepped);
+  EXPECT_NEAR(summary.surface.z_m, 0.299F, 1e-6F);
+}
+
+TEST(SquareOfCells, SeenInPartIsCarriedOnAlongFloorButNotAlongWhatIsSteeper) {
+  EXPECT_NEAR(square(cell(0.0F, 0.2F), CellMemory{}).surface.z_m, 0.005F, 1e-6F);
+  EXPECT_NEAR(square(cell(0.0F, 0.5F), CellMemory{}).surface.z_m, 0.0F, 1e-6F);
+}
+
 TEST(SquareOfCells, NeverSeenHasNoSurface) {
   const std::array<CellMemory, 4> cells{};
   EXPECT_FALSE(summarise(cells, 2, kPitch_m, kStep_m).seen);
