@@ -12,7 +12,7 @@ namespace floornav {
 struct AlignmentSettings {
   bool enabled = true;
   double max_lift_m = 0.05;   ///< most that a frame is moved up or down
-  double max_tilt_deg = 3.0;  ///< most that it is turned about a horizontal axis
+  double max_tilt_deg = 5.0;  ///< most that it is turned about a horizontal axis
 };
 
 template <class Visitor>

@@ -24,9 +24,9 @@ std::int32_t cells_along(double resolution_m, double pitch_m, const char* name) 
 }
 
 /// The first frames of an epoch share their errors: the map's heights are those of their poses' mean. Later
-/// ones are moved to the map, by nine tenths, so that it follows the poses slowly.
+/// ones are moved to the map, all but a fiftieth, so that it follows the poses slowly.
 constexpr int kFramesToSettle = 30;
-constexpr double kShareOfFrame = 0.9;
+constexpr double kShareOfFrame = 0.98;
 constexpr double kWakeTiles = 2;  ///< beyond the range of evidence: what is judged with it
 constexpr double kRestTiles = 4;
 

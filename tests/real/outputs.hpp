@@ -44,7 +44,8 @@ enum class Cell { kUnknown, kFree, kBlocked };
 class PublishedMap {
  public:
   explicit PublishedMap(const std::filesystem::path& folder)
-      : pixels_(cv::imread((folder / "map.pgm").string(), cv::IMREAD_UNCHANGED)) {
+      : pixels_(cv::imread((folder / "map.pgm").string(), cv::IMREAD_UNCHANGED)),
+        heights_m_(cv::imread((folder / "height.tiff").string(), cv::IMREAD_UNCHANGED)) {
     std::ifstream yaml(folder / "map.yaml");
     for (std::string line; std::getline(yaml, line);) {
       if (line.starts_with("resolution:")) resolution_m_ = std::stod(line.substr(11));
@@ -57,16 +58,27 @@ class PublishedMap {
             static_cast<int>(std::floor(y_m / resolution_m_))};
   }
   [[nodiscard]] Cell at(std::pair<int, int> cell) const {
-    const int column = cell.first - static_cast<int>(std::lround(x_m_ / resolution_m_));
-    const int row = pixels_.rows - 1 - (cell.second - static_cast<int>(std::lround(y_m_ / resolution_m_)));
+    const auto [row, column] = pixel_of(cell);
     if (column < 0 || row < 0 || column >= pixels_.cols || row >= pixels_.rows) return Cell::kUnknown;
     const double occupied = (255 - pixels_.at<std::uint8_t>(row, column)) / 255.0;
     return occupied > 0.65 ? Cell::kBlocked : occupied < 0.196 ? Cell::kFree : Cell::kUnknown;
   }
+  /// z of a cell that was seen.
+  [[nodiscard]] double height_at(std::pair<int, int> cell) const {
+    const auto [row, column] = pixel_of(cell);
+    return static_cast<double>(heights_m_.at<float>(row, column));
+  }
   [[nodiscard]] double resolution_m() const { return resolution_m_; }
 
  private:
+  /// Row and column.
+  [[nodiscard]] std::pair<int, int> pixel_of(std::pair<int, int> cell) const {
+    return {pixels_.rows - 1 - (cell.second - static_cast<int>(std::lround(y_m_ / resolution_m_))),
+            cell.first - static_cast<int>(std::lround(x_m_ / resolution_m_))};
+  }
+
   cv::Mat pixels_;
+  cv::Mat heights_m_;
   double resolution_m_ = 0;
   double x_m_ = 0;
   double y_m_ = 0;

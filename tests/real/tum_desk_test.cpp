@@ -192,5 +192,67 @@ TEST_F(TumDesk, DeskTopIsBlocked) {
   EXPECT_GE(blocked, kBlockedShare * seen);
 }
 
+/// Heights of the recording's pixels above each frame's own floor, by cell of the map: whatever the motion
+/// capture's level.
+std::map<std::pair<int, int>, std::vector<float>> heights_above_floor(const PublishedMap& map,
+                                                                      const std::vector<Row>& frames) {
+  constexpr double kFarthest_m = 4.0;
+  const TumRecording recording(real_data("tum_fr1_rpy"));
+  std::map<std::pair<int, int>, std::vector<float>> heights;
+  for (const Row& frame : frames) {
+    const auto points = recording.points_at(frame.at("utime"));
+    const OraclePlane plane = fit_floor(points, {Eigen::Vector3d::UnitZ(), kFloor_m});
+    if (plane.inliers < 700) continue;  // every seventh point
+    const Eigen::Vector3d camera = recording.camera_at(frame.at("utime")).translation();
+    for (const Eigen::Vector3d& p : points)
+      if ((p - camera).norm() < kFarthest_m)
+        heights[map.cell_of(p.x(), p.y())].push_back(static_cast<float>(plane.above(p)));
+  }
+  return heights;
+}
+
+/// z = k.x x + k.y y + k.z, by least squares in which what lies off it loses its weight.
+Eigen::Vector3d robust_plane(const std::vector<Eigen::Vector3d>& places) {
+  constexpr double kScale_m = 0.015;
+  Eigen::Vector3d k = Eigen::Vector3d::Zero();
+  for (int round = 0; round < 50; ++round) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& p : places) {
+      const Eigen::Vector3d row(p.x(), p.y(), 1);
+      const double off = round == 0 ? 0 : (p.z() - k.dot(row)) / kScale_m;
+      const double weight = 1 / ((1 + off * off) * (1 + off * off));
+      normal += weight * row * row.transpose();
+      right += weight * p.z() * row;
+    }
+    k = normal.ldlt().solve(right);
+  }
+  return k;
+}
+
+/// Of the cells that the map calls free and in which the recording's own pixels show floor alone.
+TEST_F(TumDesk, FloorIsFlatInTheMap) {
+  constexpr double kFlat_m = 0.015;
+  const PublishedMap map(out());
+  std::vector<Eigen::Vector3d> floor;
+  for (auto& [cell, above] : heights_above_floor(map, read_csv(out() / "frames.csv"))) {
+    if (above.size() < 30 || map.at(cell) != Cell::kFree) continue;
+    std::ranges::sort(above);
+    if (std::abs(above[above.size() / 2]) > 0.03F || above[above.size() * 19 / 20] > 0.04F) continue;
+    const double x = (cell.first + 0.5) * map.resolution_m(), y = (cell.second + 0.5) * map.resolution_m();
+    floor.emplace_back(x, y, map.height_at(cell));
+  }
+  ASSERT_GT(floor.size(), 800U);
+  const Eigen::Vector3d k = robust_plane(floor);
+  const auto flat = std::ranges::count_if(floor, [&](const Eigen::Vector3d& p) {
+    return std::abs(p.z() - k.dot(Eigen::Vector3d(p.x(), p.y(), 1))) <= kFlat_m;
+  });
+  const double share = static_cast<double>(flat) / static_cast<double>(floor.size());
+  std::printf(
+      "floor of the map: %zu free cells, %.1f %% within 1.5 cm of their plane, which leans by %.2f degrees\n",
+      floor.size(), 100 * share, std::atan(k.head<2>().norm()) * 180 / M_PI);
+  EXPECT_GE(share, 0.9);
+}
+
 }  // namespace
 }  // namespace floornav
