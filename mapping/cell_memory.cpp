@@ -144,6 +144,14 @@ bool CellMemory::forget_unseen(const CellView& view, const FusionLimits& limits,
   return upper_doubt + lower_doubt > 0;
 }
 
+bool CellMemory::doubt_unsettled_floor(const CellView& view, Seen seen) {
+  if (!view.partly_hidden || seen.lower || !lower_.exists() || lower_.column ||
+      lower_.support == Level::kMost)
+    return false;
+  weaken(lower_, Level::kPerFrame);
+  return true;
+}
+
 void CellMemory::merge(const FusionLimits& limits) {
   if (upper_.column || lower_.column || !upper_.exists() || !fits(lower_, upper_, limits)) return;
   blend(lower_, upper_, limits.memory_var_m2);
@@ -181,7 +189,7 @@ bool CellMemory::fuse(const CellView& view, const FusionLimits& limits) {
     if (floor_known && sighting.column && sighting.points < kSurePoints) sighting.points = 1;
     place(sighting, limits, seen);
   }
-  const bool doubted = forget_unseen(view, limits, seen);
+  const bool doubted = forget_unseen(view, limits, seen) | doubt_unsettled_floor(view, seen);
   merge(limits);
   if (!view.sightings.empty()) {
     no_return_frames_ = 0;

@@ -42,7 +42,8 @@ struct Sighting : Surface {
 struct CellView {
   std::span<const Sighting> sightings;                     ///< by rising z_m
   float ray_z_m = std::numeric_limits<float>::infinity();  ///< lowest height at which a ray passed through
-  bool no_return = false;                                  ///< a floor was expected, no ray came back
+  bool no_return = false;                                  ///< no floor where one was expected
+  bool partly_hidden = false;                              ///< by something nearer
 };
 
 /// How much two heights may differ and still be one surface.
@@ -104,6 +105,8 @@ class CellMemory {
   void place_above(const Sighting& sighting, Seen& seen);
   void place_below(const Sighting& sighting, Seen& seen);
   bool forget_unseen(const CellView& view, const FusionLimits& limits, Seen seen);
+  /// A floor of which as many frames saw a part as saw it whole is not known.
+  bool doubt_unsettled_floor(const CellView& view, Seen seen);
   void merge(const FusionLimits& limits);
 
   Level lower_;

@@ -25,6 +25,15 @@ bool diagonal_open(const VertexRef& from, std::size_t k, std::uint8_t sides) {
   return to.vertex().is(Vertex::kFree) && step_open(to, k + 3) && step_open(to, k + 5);
 }
 
+/// Whether there is no floor at a neighbour. Just behind an edge no sight line has fallen far: a vertex that
+/// was not seen, with a drop on its other side, belongs to it.
+bool begins_drop(const VertexRef& to, std::size_t k) {
+  if (to.vertex().is(Vertex::kNoReturn)) return true;
+  if (k % 2 != 0 || to.vertex().is(Vertex::kSeen)) return false;
+  const VertexRef next = to.neighbour(k);
+  return next && next.vertex().is(Vertex::kNoReturn);
+}
+
 bool on_border(const VertexRef& place) {
   const auto at_end = [](std::int32_t at) { return at == 0 || at == MapTile::kSide - 1; };
   return at_end(place.x) || at_end(place.y);
@@ -55,13 +64,15 @@ float StepRule::rise_m(const Surface& from, const Surface& to, std::size_t k) co
 
 bool is_rim(const VertexRef& place, const StepRule& rule) {
   const Surface from = place.surface();
-  for (std::size_t k = 0; k < 8; k += 2) {
+  for (std::size_t k = 0; k < 8; ++k) {
     const VertexRef to = place.neighbour(k);
-    if (!to || !to.vertex().is(Vertex::kSeen)) continue;
+    if (!to) continue;
+    if (begins_drop(to, k)) return true;
+    if (!to.vertex().is(Vertex::kSeen)) continue;
     const Surface beside = to.surface();
-    if (beside.column) continue;
-    if (-rule.rise_m(from, beside, k) > rule.max_step_m + 3.0F * std::sqrt(from.var_m2 + beside.var_m2))
-      return true;
+    const float down_m = beside.column ? from.z_m - beside.z_m : -rule.rise_m(from, beside, k);
+    if (down_m > 0 && !rule.climbs(down_m, from, beside)) return true;
+    if (k % 2 == 0 && to.vertex().is(Vertex::kStepped) && std::abs(down_m) <= rule.max_step_m) return true;
   }
   return false;
 }

@@ -18,14 +18,22 @@ struct StepRule {
   /// (2); on a ramp the slope, which has a limit of its own, is not taken for a step, however coarse the map
   /// is.
   [[nodiscard]] bool open(const Surface& from, const Surface& to, std::size_t k) const {
-    return std::abs(rise_m(from, to, k)) <= max_step_m;
+    return climbs(std::abs(rise_m(from, to, k)), from, to);
+  }
+  /// The same for a step of that height between the two: one that is clearly there must be lower than T by
+  /// what both heights are uncertain.
+  [[nodiscard]] bool climbs(float step_m, const Surface& from, const Surface& to) const {
+    constexpr float kClearly_sigmas = 2.0F;
+    const float sigma_m = std::sqrt(from.var_m2 + to.var_m2);
+    return step_m <= max_step_m && (step_m + sigma_m <= max_step_m || step_m <= kClearly_sigmas * sigma_m);
   }
   /// How far up that step goes.
   [[nodiscard]] float rise_m(const Surface& from, const Surface& to, std::size_t k) const;
 };
 
-/// Whether a vertex is the upper side of a step of more than T. The highest surface in a vertex decides, so
-/// that the edge itself goes through the upper one: no wheel may stand there.
+/// Whether a vertex is the upper side of a step of more than T, or of a drop. The highest surface in a vertex
+/// decides, so that the edge itself goes through the upper one or the one before it: no wheel may stand
+/// there.
 bool is_rim(const VertexRef& place, const StepRule& rule);
 
 /// Works out MapTile::steps_open of a tile: where both vertices are drivable and eq. (2) lets the robot pass.

@@ -70,6 +70,7 @@ bool MapJudge::take_summary(std::span<const CellMemory> cells, std::int32_t side
   const SquareSummary summary = summarise(cells, side, pitch_m, rule_.max_step_m);
   const bool gentle = std::hypot(summary.surface.gradient_x, summary.surface.gradient_y) <= max_rise_;
   vertex.set(Vertex::kSeen, summary.seen);
+  vertex.set(Vertex::kStepped, summary.stepped);
   vertex.set(Vertex::kDrivable, summary.seen && gentle && !summary.stepped && !summary.surface.column);
   vertex.set(Vertex::kNoReturn, !summary.seen && no_return_frames >= settings_.no_return_frames);
   if (!tile.surfaces.empty()) tile.surfaces[i] = summary.surface;

@@ -15,10 +15,11 @@ struct Vertex {
   static constexpr std::uint8_t kFloor = 4;     ///< joined to the robot's floor by open edges
   static constexpr std::uint8_t kCutOff = 8;    ///< every edge towards the robot's floor is closed by eq. (2)
   static constexpr std::uint8_t kNoReturn =
-      16;                                     ///< never seen, and rays that should have found a floor did not
+      16;  ///< never seen, and rays that should have found a floor went through
   static constexpr std::uint8_t kFree = 32;   ///< the verdict on a vertex that was seen
   static constexpr std::uint8_t kAsked = 64;  ///< the search for what is cut off has been here
 
+  static constexpr std::uint8_t kStepped = 128;  ///< the edge of something goes through it
   std::uint8_t flags = 0;
 
   [[nodiscard]] bool is(std::uint8_t flag) const { return (flags & flag) != 0; }

@@ -106,7 +106,8 @@ bool ViewCoverage::is_behind_side(const FloorEvidence& evidence, const CellEvide
 Coverage ViewCoverage::of(const FloorEvidence& evidence, std::uint32_t entry) const {
   const CellEvidence& cell = evidence.cells[entry];
   if (upright(cell, evidence) < kLeastUpright) return Coverage::kWhole;
-  if (is_behind_side(evidence, cell)) return Coverage::kGlimpse;
+  const bool is_floor = evidence.surfels[static_cast<std::size_t>(cell.surfel)].dominant;
+  if ((cell.partly_hidden && is_floor) || is_behind_side(evidence, cell)) return Coverage::kGlimpse;
   const CellEvidence& fullest = evidence.cells[fullest_[place_of(cell.cell)].entry];
   const auto all = static_cast<float>(fullest.points);
   const auto seen = static_cast<float>(cell.points);

@@ -12,7 +12,7 @@ namespace floornav {
 enum class Coverage : std::uint8_t {
   kWhole,
   kPart,     ///< a good part of it is hidden
-  kGlimpse,  ///< hardly seen, or behind the side of something
+  kGlimpse,  ///< hardly seen, behind the side of something, or floor with the outline of something across it
 };
 
 /// How fully a frame shows each cell, judged by the points of the cells around it that show the same surface.

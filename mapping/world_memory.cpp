@@ -22,6 +22,7 @@ WorldMemory::WorldMemory(const MappingSettings& settings, const RobotSettings& r
       limits_{.gate_m = static_cast<float>(step_limit_m(robot) / 2),
               .ray_margin_m = static_cast<float>(step_limit_m(robot)),
               .memory_var_m2 = square(settings.memory_sigma_m)},
+      drop_m_(static_cast<float>(step_limit_m(robot))),
       overhead_m_(static_cast<float>(robot.height_m + settings.overhead_margin_m)) {}
 
 void WorldMemory::sort_by_cell(const FloorEvidence& evidence, Taken& taken) {
@@ -49,21 +50,21 @@ CellView WorldMemory::view_of(const FloorEvidence& evidence, Entries entries) {
     const CellEvidence& cell = evidence.cells[i];
     view.ray_z_m = std::fmin(view.ray_z_m, cell.ray_z_m);
     view.no_return = view.no_return || cell.no_return;
+    view.partly_hidden = view.partly_hidden || cell.partly_hidden;
     reader_.read(cell, evidence, coverage_.of(evidence, i), sightings_);
   }
   if (sightings_.size() > 1) std::ranges::stable_sort(sightings_, {}, &Sighting::z_m);
   return view;
 }
 
-float WorldMemory::overhead_limit_m(const FloorEvidence& evidence, CellIndex cell, CellIndex vertex,
-                                    const FloorHeight& floor) {
+float WorldMemory::floor_z_m(const FloorEvidence& evidence, CellIndex cell, CellIndex vertex,
+                             const FloorHeight& floor) {
   const CellIndex block = floor.block_at(vertex);
   if (!last_block_.known || last_block_.block != block)
     last_block_ = {block, floor.block_height(block), true};
-  if (last_block_.height_m) return *last_block_.height_m + overhead_m_;
+  if (last_block_.height_m) return *last_block_.height_m;
   const Lattice& lattice = evidence.lattice;
-  return plane_height_m(evidence.T_world_body, lattice.center_of(cell.ix), lattice.center_of(cell.iy)) +
-         overhead_m_;
+  return plane_height_m(evidence.T_world_body, lattice.center_of(cell.ix), lattice.center_of(cell.iy));
 }
 
 bool WorldMemory::split_overhead(CellMemory& memory, float limit_z_m) {
@@ -80,6 +81,8 @@ void WorldMemory::take_cell(const FloorEvidence& evidence, Entries entries, cons
   const CellIndex cell = evidence.cells[entries.front()].cell;
   const CellIndex vertex = tiles.vertex_of(cell);
   CellView view = view_of(evidence, entries);
+  const float floor_m = floor_z_m(evidence, cell, vertex, floor);
+  view.no_return = view.no_return || view.ray_z_m < floor_m - drop_m_;
   const bool only_clears = sightings_.empty() && !view.no_return;
   const CellIndex place = GridMap::tile_of(vertex);
   MapTile* const tile =
@@ -88,7 +91,7 @@ void WorldMemory::take_cell(const FloorEvidence& evidence, Entries entries, cons
   const std::size_t slot = tiles.slot_of(cell);
   CellMemory memory = tile->cells.at(slot);
   const float overhead_before_m = memory.overhead_z_m();
-  const bool overhead = split_overhead(memory, overhead_limit_m(evidence, cell, vertex, floor));
+  const bool overhead = split_overhead(memory, floor_m + overhead_m_);
   tile->overhead_moved = tile->overhead_moved || (overhead && memory.overhead_z_m() != overhead_before_m);
   view.sightings = sightings_;
   if (!memory.fuse(view, limits_) && !overhead) return;

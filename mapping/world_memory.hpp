@@ -42,8 +42,8 @@ class WorldMemory {
   void sort_by_cell(const FloorEvidence& evidence, Taken& taken);
   void take_cell(const FloorEvidence& evidence, Entries entries, const FloorHeight& floor, MapTiles& tiles);
   [[nodiscard]] CellView view_of(const FloorEvidence& evidence, Entries entries);
-  [[nodiscard]] float overhead_limit_m(const FloorEvidence& evidence, CellIndex cell, CellIndex vertex,
-                                       const FloorHeight& floor);
+  [[nodiscard]] float floor_z_m(const FloorEvidence& evidence, CellIndex cell, CellIndex vertex,
+                                const FloorHeight& floor);
   bool split_overhead(CellMemory& memory, float limit_z_m);
   void touch(MapTile& tile, std::size_t vertex);
   void see_through_tops(const FloorEvidence& evidence, MapTiles& tiles);
@@ -55,6 +55,7 @@ class WorldMemory {
   EvidenceReader reader_;
   ViewCoverage coverage_;
   FusionLimits limits_;
+  float drop_m_;                      ///< a sight line so far below the floor shows that there is none
   float overhead_m_;                  ///< above the floor, from where on nothing can be hit
   std::vector<std::uint32_t> order_;  ///< valid entries of the evidence, those of a cell together
   std::vector<Sighting> sightings_;

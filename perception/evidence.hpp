@@ -33,7 +33,8 @@ struct CellEvidence {
   float var_z_m2 = std::numeric_limits<float>::quiet_NaN();  ///< variance of mean_z_m by eq. (3) / (4)
   float top_z_m = std::numeric_limits<float>::quiet_NaN();   ///< robust highest point
   float ray_z_m = std::numeric_limits<float>::quiet_NaN();   ///< lowest height at which a ray passed through
-  bool no_return = false;  ///< rays should have ended on a floor here and brought nothing back
+  bool no_return = false;      ///< rays should have ended on a floor here and brought nothing back
+  bool partly_hidden = false;  ///< the outline of something nearer goes through the cell
 };
 
 struct SectionReport {

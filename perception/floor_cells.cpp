@@ -43,6 +43,7 @@ void FloorCells::begin(const MeasuredImage& image, const RoiCloud& cloud, const 
   missing_floor_.assign(cell_sections_.size(), 0);
   rises_.assign(cell_sections_.size(), {});
   tracer_.trace(image, view, window_, parallel, lowest_ray_z_m_);
+  hidden_part_finder_.find(image, view, window_, parallel, hidden_part_);
 }
 
 void FloorCells::add(int first, int end, const MeasuredImage& image, const RoiCloud& cloud,
@@ -123,6 +124,7 @@ void FloorCells::summarize_one(std::size_t seen, const SensorView& view, float a
   if (lowest_ray_z_m_[n] < std::numeric_limits<float>::infinity()) cell.ray_z_m = lowest_ray_z_m_[n];
   cell.no_return = missing_floor_[n] != 0;
   if (points.empty()) return;
+  cell.partly_hidden = hidden_part_[n] != 0;
   const CellNoise noise{width_px(cell.cell, points.front().z_m, evidence.lattice, view), alike_px};
   const auto significance = static_cast<float>(settings_.significance_sigmas);
   const float rise_m =

@@ -8,6 +8,7 @@
 #include "perception/cell_points.hpp"
 #include "perception/cell_sections.hpp"
 #include "perception/evidence.hpp"
+#include "perception/hidden_parts.hpp"
 #include "perception/measured_image.hpp"
 #include "perception/missing_floor.hpp"
 #include "perception/noise_correlation.hpp"
@@ -51,6 +52,7 @@ class FloorCells {
   CellSorter sorter_;
   SightLineTracer tracer_;
   MissingFloorFinder missing_floor_finder_;
+  HiddenPartFinder hidden_part_finder_;
 
   // Of the frame in hand; kept so that a frame allocates nothing.
   CellWindow window_;
@@ -59,6 +61,7 @@ class FloorCells {
   CellPoints points_;
   std::vector<float> lowest_ray_z_m_;        ///< a cell
   std::vector<std::uint8_t> missing_floor_;  ///< a cell
+  std::vector<std::uint8_t> hidden_part_;    ///< a cell
   std::vector<std::int32_t> seen_;
   std::vector<DecidingSurfel> deciders_;  ///< a seen cell
   std::vector<CellRise> rises_;           ///< a cell of the window

@@ -217,6 +217,23 @@ TEST(CellMemory, TwoLevelsFartherApartThanAStepAndTheirNoiseMakeAnEdge) {
   EXPECT_FALSE(floor.is_stepped(0.02F));
 }
 
+TEST(CellMemory, FloorSeenWholeNoMoreOftenThanInPartIsNotKnown) {
+  CellMemory memory;
+  for (int view = 0; view < 5; ++view) {
+    fuse(memory, {plane(0)});
+    EXPECT_NE(memory.decider(), nullptr);
+    memory.fuse({.sightings = {}, .partly_hidden = true}, kLimits);
+    EXPECT_EQ(memory.decider(), nullptr);
+  }
+}
+
+TEST(CellMemory, FloorSeenWholeOftenStaysWhenSomethingComesBeforeIt) {
+  CellMemory memory;
+  for (int view = 0; view < 3; ++view) fuse(memory, {plane(0)});
+  for (int view = 0; view < 50; ++view) memory.fuse({.sightings = {}, .partly_hidden = true}, kLimits);
+  EXPECT_NE(memory.decider(), nullptr);
+}
+
 TEST(CellMemory, FloorInPartOfACellSpeaksLessAgainstWhatStandsInTheRest) {
   CellMemory whole;
   CellMemory part;

@@ -40,6 +40,34 @@ TEST(WorldMap, GroundBelowAnEdgeAndItsRimAreBlocked) {
   EXPECT_EQ(count(map, {0, 1.95, -1, 1}), (Counts{.free = 39 * 40}));
 }
 
+TEST(WorldMap, AStepALittleUnderTheLimitIsClosedUntilItsHeightIsCertain) {
+  const Scene step = with_block(flat(), {2.0, 4.0, -1, 1}, 0.016);
+  const auto edge = [&](int frames) {
+    const WorldMap map = mapped(std::vector<FloorEvidence>(static_cast<std::size_t>(frames), see(step)));
+    return edge_open(map, at(map, 1.975, 0.025), 0);
+  };
+  EXPECT_FALSE(edge(1));  // 3.6 mm each by view_sigma_m and the sensor
+  EXPECT_TRUE(edge(30));
+}
+
+TEST(WorldMap, WhereSightLinesFallBelowTheFloorItEndsInADrop) {
+  const Area unseen{2.0, 2.2, -1, 1};
+  FloorEvidence frame = see(with_hole(flat(), unseen));
+  for (std::int32_t iy = -20; iy < 20; ++iy)
+    for (std::int32_t ix = 40; ix < 44; ++ix) {
+      CellEvidence ray;
+      ray.cell = {ix, iy};
+      ray.ray_z_m = ix < 42 ? -0.015F : -0.045F;  // just behind the edge a ray has not fallen far
+      frame.cells.push_back(ray);
+    }
+  const std::vector<FloorEvidence> twice(2, frame);
+  EXPECT_EQ(count(mapped(twice), unseen), (Counts{.unknown = 4 * 40}));
+  const WorldMap map = mapped(std::vector<FloorEvidence>(4, frame));
+  EXPECT_EQ(count(map, {2.1, 2.2, -1, 1}), (Counts{.blocked = 2 * 40}));
+  EXPECT_EQ(count(map, {2.2, 2.25, -1, 1}).free, 0);  // what lies beside a drop
+  EXPECT_EQ(count(map, {0, 2.0, -1, 1}), (Counts{.free = 40 * 40}));
+}
+
 TEST(WorldMap, SidesOfARampAreBlockedWhereTheyAreHigherThanAStep) {
   const Area on_ramp{1.2, 3.2, -0.5, 0.5};
   const Scene uphill = ramp(5, 1.2, 3.2);

@@ -54,8 +54,8 @@ TEST_P(Resolutions, LowStepIsFreeAndHighStepIsCutOff) {
     return count(mapped({see(with_block(flat(), upper, step_m), area, GetParam().pitch_m)}, settings()),
                  upper);
   };
-  EXPECT_EQ(states(0.019).blocked, 0);
-  EXPECT_EQ(states(0.019).unknown, 0);
+  EXPECT_EQ(states(0.014).blocked, 0);
+  EXPECT_EQ(states(0.014).unknown, 0);
   EXPECT_EQ(states(0.025).free, 0);
   EXPECT_EQ(states(0.025).unknown, 0);
 }

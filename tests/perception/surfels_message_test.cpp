@@ -228,7 +228,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Corruption{"TopInfinite", [](surfels_t& m) { m.cells[1].top_z = kInf; }},
                     Corruption{"VarianceNegative", [](surfels_t& m) { m.cells[1].var_z = -1e-9F; }},
                     Corruption{"RayInfinite", [](surfels_t& m) { m.cells[1].ray_z = -kInf; }},
-                    Corruption{"CellFlags", [](surfels_t& m) { m.cells[1].flags = 2; }}),
+                    Corruption{"CellFlags", [](surfels_t& m) { m.cells[1].flags = 4; }}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -51,7 +51,7 @@ std::optional<double> floor_error(std::vector<Row> surfels, double frame, std::v
 /// Cells of the map by what the raw pixels of its only frame say of them.
 struct RawCells {
   std::set<std::pair<int, int>> obstacles;  ///< many points well above the floor
-  std::set<std::pair<int, int>> floor;      ///< many points on the floor, hardly any above
+  std::set<std::pair<int, int>> floor;      ///< many points on the floor, none above, and floor all around
 };
 
 /// Heights are those above the plane fitted to the same pixels, places those of the mounting; an obstacle
@@ -61,6 +61,7 @@ RawCells raw_cells(const std::vector<Eigen::Vector3d>& points, const Eigen::Isom
   constexpr double kRobot_m = 0.65;
   constexpr double kFloor_m = 0.015;
   constexpr int kSurePoints = 40;
+  constexpr int kSomePoints = 10;
   const OraclePlane plane = floor_near(points, T_body_camera);
   std::map<std::pair<int, int>, int> above;
   std::map<std::pair<int, int>, int> on;
@@ -74,8 +75,14 @@ RawCells raw_cells(const std::vector<Eigen::Vector3d>& points, const Eigen::Isom
   RawCells cells;
   for (const auto& [cell, count] : above)
     if (count >= kSurePoints) cells.obstacles.insert(cell);
-  for (const auto& [cell, count] : on)
-    if (count >= kSurePoints && above[cell] == 0) cells.floor.insert(cell);
+  const auto is_floor_around = [&](std::pair<int, int> cell) {
+    for (int dx = -1; dx <= 1; ++dx)
+      for (int dy = -1; dy <= 1; ++dy)
+        if (on[{cell.first + dx, cell.second + dy}] < kSomePoints) return false;
+    return true;
+  };
+  for (const auto& [cell, count] : std::map(on))
+    if (count >= kSurePoints && above[cell] == 0 && is_floor_around(cell)) cells.floor.insert(cell);
   return cells;
 }
 

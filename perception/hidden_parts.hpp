@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "perception/cell_window.hpp"
+#include "perception/measured_image.hpp"
+#include "perception/sensor_view.hpp"
+#include "runtime/geometry/parallel.hpp"
+
+namespace floornav {
+
+/// Finds the cells through which the outline of something nearer goes, as the sensor sees it: a part of each
+/// is hidden, and what was seen of it tells nothing of the rest.
+///
+/// The outline lies between two neighbouring pixels of which one is clearly nearer than a floor through the
+/// other would be there; pixels that measured nothing (the shadow of the projector) may lie between them.
+/// Where enough rays past an outline end in a cell, it goes through it.
+class HiddenPartFinder {
+ public:
+  /// Writes to `hidden` for each cell of the window whether a part of it is hidden.
+  void find(const MeasuredImage& image, const SensorView& view, const CellWindow& window, Parallel& parallel,
+            std::vector<std::uint8_t>& hidden);
+
+ private:
+  /// The last pixel of a row or a column that measured something.
+  struct Pixel {
+    std::int32_t place = -1;  ///< column or row; far away: there was none
+    float inverse_depth = 0;  ///< 1/m
+  };
+  /// What one worker sees.
+  struct Worker {
+    std::vector<std::uint8_t> passed;       ///< a cell: a ray past an outline ends in it
+    std::vector<Pixel> above;               ///< a column
+    std::vector<std::int32_t> outline_row;  ///< a column: the last row in which an outline went beside it
+  };
+  /// Where rays end, and how a level floor's inverse depth grows from pixel to pixel.
+  struct Frame {
+    Eigen::Matrix3f R_world_sensor;
+    Eigen::Vector3d sensor_m;
+    float per_column, per_row;  ///< 1/m
+  };
+  static Frame frame_of(const SensorView& view);
+  static const Pixel* farther_of(const Pixel& first, const Pixel& second, float floor_growth, float clearly);
+  static void look_at_rows(const MeasuredImage& image, const SensorView& view, const CellWindow& window,
+                           const Frame& frame, int first_row, int end_row, Worker& worker);
+  static void look_at_row(const MeasuredImage& image, const SensorView& view, const CellWindow& window,
+                          const Frame& frame, int row, Worker& worker);
+
+  std::vector<Worker> workers_;
+};
+
+}  // namespace floornav
