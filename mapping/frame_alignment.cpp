@@ -15,34 +15,51 @@ namespace {
 
 constexpr std::size_t kLeastCommonCells = 50;
 constexpr float kLeastUpright = 0.87F;  // of a normal's z: 30 degrees
+constexpr float kViewVar_m2 = 1e-5F;
 
-/// A cell that frame and map both know as a plane.
+/// A cell that frame and map both know as a plane, or where the frame's floor is held against a level one.
 struct CommonCell {
   Eigen::Vector2d place_m;  ///< from the body
   double above_map_m;
   double weight;  ///< 1 / variance of above_map_m
 };
 
+bool is_upright_plane(const CellEvidence& cell, const FloorEvidence& frame) {
+  return cell.points >= Level::kTrusted && cell.surfel >= 0 && EvidenceReader::is_valid(cell, frame) &&
+         std::abs(frame.surfels[static_cast<std::size_t>(cell.surfel)].normal.z()) >= kLeastUpright;
+}
+
+Eigen::Vector2d from_body_m(const CellEvidence& cell, const FloorEvidence& frame) {
+  return Eigen::Vector2d(frame.lattice.center_of(cell.cell.ix), frame.lattice.center_of(cell.cell.iy)) -
+         frame.T_world_body.translation().head<2>();
+}
+
 std::vector<CommonCell> common_cells(const FloorEvidence& frame, const MapTiles& map) {
   constexpr double kFarthest_m = 0.2;
-  constexpr float kViewVar_m2 = 1e-5F;
-  const Eigen::Vector2d body_m = frame.T_world_body.translation().head<2>();
   std::vector<CommonCell> common;
   common.reserve(frame.cells.size());
   for (const CellEvidence& cell : frame.cells) {
-    if (cell.points < Level::kTrusted || cell.surfel < 0 || !EvidenceReader::is_valid(cell, frame)) continue;
-    if (std::abs(frame.surfels[static_cast<std::size_t>(cell.surfel)].normal.z()) < kLeastUpright) continue;
+    if (!is_upright_plane(cell, frame)) continue;
     const CellMemory memory = map.cell(cell.cell);
     const Surface* const surface = memory.decider();
     if (surface == nullptr || surface->column) continue;
     const double above_m = static_cast<double>(cell.mean_z_m - surface->z_m);
     if (std::abs(above_m) > kFarthest_m) continue;
-    const Eigen::Vector2d place_m(frame.lattice.center_of(cell.cell.ix),
-                                  frame.lattice.center_of(cell.cell.iy));
-    common.push_back({place_m - body_m, above_m,
+    common.push_back({from_body_m(cell, frame), above_m,
                       1.0 / static_cast<double>(cell.var_z_m2 + surface->var_m2 + kViewVar_m2)});
   }
   return common;
+}
+
+std::vector<CommonCell> floor_cells(const FloorEvidence& frame) {
+  std::vector<CommonCell> floor;
+  for (const CellEvidence& cell : frame.cells) {
+    if (!is_upright_plane(cell, frame) || !frame.surfels[static_cast<std::size_t>(cell.surfel)].dominant)
+      continue;
+    floor.push_back({from_body_m(cell, frame), static_cast<double>(cell.mean_z_m),
+                     1.0 / static_cast<double>(cell.var_z_m2 + kViewVar_m2)});
+  }
+  return floor;
 }
 
 /// Normal equations of lift and rises, summed cell by cell.
@@ -92,14 +109,15 @@ double median_difference(std::vector<CommonCell>& cells) {
   return middle->above_map_m;
 }
 
-}  // namespace
-
-HeightError find_height_error(const FloorEvidence& frame, const MapTiles& map,
-                              const AlignmentSettings& settings) {
+HeightError no_error(const FloorEvidence& frame) {
   HeightError error;
   error.center_m = frame.T_world_body.translation().head<2>();
-  if (!settings.enabled) return error;
-  std::vector<CommonCell> cells = common_cells(frame, map);
+  return error;
+}
+
+HeightError plane_of_error(const FloorEvidence& frame, std::vector<CommonCell> cells,
+                           const AlignmentSettings& settings) {
+  HeightError error = no_error(frame);
   if (cells.size() < kLeastCommonCells) return error;
   Eigen::Vector3d found(median_difference(cells), 0, 0);
   for (const double scale_m : {0.08, 0.04, 0.02, 0.02, 0.02}) found = fit(cells, found, scale_m);
@@ -108,6 +126,21 @@ HeightError find_height_error(const FloorEvidence& frame, const MapTiles& map,
   const Eigen::Vector2d rise = found.tail<2>();
   error.rise = rise * std::min(1.0, max_rise / std::max(rise.norm(), 1e-9));
   return error;
+}
+
+}  // namespace
+
+HeightError find_height_error(const FloorEvidence& frame, const MapTiles& map,
+                              const AlignmentSettings& settings) {
+  return settings.enabled ? plane_of_error(frame, common_cells(frame, map), settings) : no_error(frame);
+}
+
+HeightError find_level_error(const FloorEvidence& frame, const AlignmentSettings& settings) {
+  constexpr double kMostLift_m = 0.03;
+  const double most_rise = std::tan(std::numbers::pi / 180);
+  if (!settings.enabled) return no_error(frame);
+  const HeightError error = plane_of_error(frame, floor_cells(frame), settings);
+  return std::abs(error.lift_m) < kMostLift_m && error.rise.norm() < most_rise ? error : no_error(frame);
 }
 
 FloorEvidence corrected(const FloorEvidence& frame, const HeightError& error) {

@@ -13,6 +13,9 @@ struct AlignmentSettings {
   bool enabled = true;
   double max_lift_m = 0.05;   ///< most that a frame is moved up or down
   double max_tilt_deg = 5.0;  ///< most that it is turned about a horizontal axis
+  /// Frames of which the poses count as much as that a floor which begins near z = 0 lies there, and level:
+  /// within 3 cm and 1 degree. 0: the poses alone tell.
+  double level_start_frames = 10;
 };
 
 template <class Visitor>
@@ -20,6 +23,7 @@ void visit_settings(Visitor& visit, AlignmentSettings& s) {
   visit("enabled", s.enabled);
   visit("max_lift_m", s.max_lift_m, Allowed{0.0, 0.5});
   visit("max_tilt_deg", s.max_tilt_deg, Allowed{0.0, 10.0});
+  visit("level_start_frames", s.level_start_frames, Allowed{0.0, 1000.0});
 }
 
 /// A plane of height errors: what a frame's heights are too high by.
@@ -41,6 +45,10 @@ struct HeightError {
 /// no false edges. Too little in common: no correction.
 HeightError find_height_error(const FloorEvidence& frame, const MapTiles& map,
                               const AlignmentSettings& settings);
+
+/// By how much a frame's floor lies off the level plane z = 0 of the local frame; none where it clearly lies
+/// elsewhere: on a ramp, on another storey.
+HeightError find_level_error(const FloorEvidence& frame, const AlignmentSettings& settings);
 
 /// The frame with that error taken out of its heights and normals.
 FloorEvidence corrected(const FloorEvidence& frame, const HeightError& error);

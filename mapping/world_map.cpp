@@ -57,7 +57,9 @@ WorldMemory::Taken WorldMap::integrate(const FloorEvidence& evidence) {
   take_lattice(evidence.lattice.pitch_m);
   if (!evidence.T_world_body.matrix().allFinite()) throw std::invalid_argument("pose that is not finite");
   wake_around(evidence.T_world_body);
-  const HeightError error = split_error(find_height_error(evidence, tiles_, alignment_));
+  const HeightError error = settled_frames_ == 0
+                                ? begin_level(find_level_error(evidence, alignment_))
+                                : split_error(find_height_error(evidence, tiles_, alignment_));
   const WorldMemory::Taken taken = memory_.take(corrected(evidence, error), judge_.floor(), tiles_);
   if (evidence.utime_us >= utime_us_) T_world_body_ = evidence.T_world_body;
   utime_us_ = std::max(utime_us_, evidence.utime_us);
@@ -79,9 +81,15 @@ std::vector<CellIndex> WorldMap::refresh_terrain() {
   return changed;
 }
 
+HeightError WorldMap::begin_level(const HeightError& error) {
+  settled_frames_ = 1;
+  level_frames_ = error.lift_m != 0 ? alignment_.level_start_frames : 0;
+  return error.share(level_frames_ / (1 + level_frames_));
+}
+
 HeightError WorldMap::split_error(const HeightError& error) {
   if (settled_frames_ == kFramesToSettle) return error.share(kShareOfFrame);
-  const double share_of_map = 1.0 / ++settled_frames_;
+  const double share_of_map = 1.0 / (level_frames_ + ++settled_frames_);
   if (error.lift_m != 0) memory_.lift(error.share(share_of_map), {pitch_m_}, tiles_);
   return error.share(1 - share_of_map);
 }

@@ -62,6 +62,8 @@ class WorldMap {
  private:
   void take_lattice(double pitch_m);
   void wake_around(const Pose& T_world_body);
+  /// What is taken off the first frame of an epoch, that lies so far off a level floor.
+  [[nodiscard]] HeightError begin_level(const HeightError& error);
   /// Which part of a frame's error is the frame's own. The rest is the map's: it is moved.
   [[nodiscard]] HeightError split_error(const HeightError& error);
   [[nodiscard]] double tile_side_m() const { return grid_.lattice().pitch_m * MapTile::kSide; }
@@ -76,7 +78,8 @@ class WorldMap {
   TerrainBuilder terrain_builder_;
   double pitch_m_ = 0;  ///< of the evidence's lattice, 0: none yet
   std::int32_t cells_per_height_ = 1;
-  int settled_frames_ = 0;  ///< of this epoch, up to kFramesToSettle
+  int settled_frames_ = 0;   ///< of this epoch, up to kFramesToSettle
+  double level_frames_ = 0;  ///< that the level floor, on which this epoch began, counts for
   std::int64_t utime_us_ = 0;
   Pose T_world_body_ = Pose::Identity();
 };

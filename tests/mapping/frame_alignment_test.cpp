@@ -121,6 +121,43 @@ TEST_P(KnownError, IsFoundAlthoughThingsHaveChanged) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, KnownError, testing::Range(1U, 9U));
 
+FloorEvidence on_dominant_floor(FloorEvidence frame) {
+  for (Surfel& surfel : frame.surfels) surfel.dominant = true;
+  return frame;
+}
+
+/// By how much the map of a floor is too high where the robot began, and 2 m before it.
+Eigen::Vector2d level_start_error_m(double level_start_frames, double lift_m, double rise, int frames) {
+  MappingSettings settings;
+  settings.alignment.level_start_frames = level_start_frames;
+  WorldMap map(settings, RobotSettings{});
+  for (int i = 0; i < frames; ++i) map.integrate(on_dominant_floor(see(tilted(flat(), lift_m, rise, 0))));
+  map.refresh();
+  const auto height = [&](std::int32_t ix) {
+    return static_cast<double>(
+        map.grid().find(GridMap::tile_of({ix, 0}))->height_m(GridTile::index_of({ix, 0})));
+  };
+  return {height(0), height(40)};
+}
+
+/// Poses that err by 1 cm and 0.3 degrees in one direction, weighed against the level floor as that many
+/// frames.
+TEST(FrameAlignment, AFloorThatBeginsNearZeroIsTakenToLieThere) {
+  constexpr double kLift_m = 0.01, kRise = 0.0052;
+  for (const int frames : {1, 10}) {
+    const double share = frames / (10.0 + frames);
+    const Eigen::Vector2d error_m = level_start_error_m(10, kLift_m, kRise, frames);
+    EXPECT_NEAR(error_m[0], share * kLift_m, 0.0015) << frames;
+    EXPECT_NEAR(error_m[1], share * (kLift_m + 2.025 * kRise), 0.0015) << frames;
+  }
+  EXPECT_NEAR(level_start_error_m(0, kLift_m, kRise, 10)[0], kLift_m, 0.001);
+}
+
+TEST(FrameAlignment, AFloorThatBeginsElsewhereIsLeftThere) {
+  EXPECT_NEAR(level_start_error_m(10, 0.5, 0, 3)[0], 0.5, 0.001);
+  EXPECT_NEAR(level_start_error_m(10, 0, 0.05, 3)[1], 0.05 * 2.025, 0.001);
+}
+
 TEST(FrameAlignment, TakesOutExactlyTheErrorThatItIsGiven) {
   HeightError error;
   error.center_m = Eigen::Vector2d(1, -1);
