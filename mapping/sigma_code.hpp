@@ -21,7 +21,7 @@ constexpr std::uint8_t sigma_code(std::int16_t counts) {
   constexpr int kLargestCounts = 31 << 10;
   if (counts > kLargestCounts) return counts == kUnknownSigma ? 255 : 191;
   if (counts < 32) return static_cast<std::uint8_t>(counts < 0 ? 0 : counts);
-  const int halvings = std::bit_width(static_cast<unsigned>(counts)) - 5;
+  const int halvings = static_cast<int>(std::bit_width(static_cast<unsigned>(counts))) - 5;
   const int rounded = (counts + (1 << (halvings - 1))) >> halvings;
   return static_cast<std::uint8_t>(16 * halvings + rounded);
 }
