@@ -1,6 +1,7 @@
 #include "perception/hidden_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "perception/row_bands.hpp"
@@ -22,6 +23,13 @@ float nearer_by(float first, float second, float floor_growth) {
   const float nearer = difference - std::max(floor_growth, 0.0F);
   const float farther = difference - std::min(floor_growth, 0.0F);
   return nearer > 0.0F ? nearer : std::min(farther, 0.0F);
+}
+
+/// Whether a pixel, the one before it and the one above it measured about the same: no outline goes between
+/// them.
+bool goes_on_smoothly(float here, float before, float above, float certainty) {
+  const float most = std::max(std::abs(here - before), std::abs(here - above));
+  return before > 0.0F && above > 0.0F && most * certainty <= kNearer_sigmas;
 }
 
 /// Whether an outline that was met in the row before goes on in this one.
@@ -59,6 +67,17 @@ void HiddenPartFinder::find(const MeasuredImage& image, const SensorView& view, 
     for (std::size_t cell = 0; cell < hidden.size(); ++cell) hidden[cell] |= worker.passed[cell];
 }
 
+/// The last pixel above one that measured something, as far as outlines are looked for.
+HiddenPartFinder::Pixel HiddenPartFinder::last_above(const MeasuredImage& image, std::int32_t row,
+                                                     std::int32_t column) {
+  for (std::int32_t above = row - 1; above >= std::max(0, row - kMostBetween); --above) {
+    const float inverse_depth =
+        image.inverse_depth[image.row_begin(above) + static_cast<std::size_t>(column)];
+    if (inverse_depth > 0.0F) return {above, inverse_depth};
+  }
+  return {kNowhere, 0.0F};
+}
+
 /// The farther one of two pixels between which an outline goes; null where none does.
 const HiddenPartFinder::Pixel* HiddenPartFinder::farther_of(const Pixel& first, const Pixel& second,
                                                             float floor_growth, float clearly) {
@@ -74,19 +93,14 @@ void HiddenPartFinder::look_at_rows(const MeasuredImage& image, const SensorView
                                     const CellWindow& window, const Frame& frame, int first_row, int end_row,
                                     Worker& worker) {
   const auto width = static_cast<std::size_t>(image.width);
-  worker.above.assign(width, {kNowhere, 0.0F});
   worker.outline_row.assign(width, kNowhere);
-  for (int row = std::max(0, first_row - kMostBetween); row < first_row; ++row) {
-    const float* const depths = image.inverse_depth.data() + image.row_begin(row);
-    for (int column = 0; column < image.width; ++column)
-      if (depths[column] > 0.0F) worker.above[static_cast<std::size_t>(column)] = {row, depths[column]};
-  }
   for (int row = first_row; row < end_row; ++row) look_at_row(image, view, window, frame, row, worker);
 }
 
 void HiddenPartFinder::look_at_row(const MeasuredImage& image, const SensorView& view,
                                    const CellWindow& window, const Frame& frame, int row, Worker& worker) {
   const float* const depths = image.inverse_depth.data() + image.row_begin(row);
+  const float* const row_above = row > 0 ? depths - image.stride : depths;
   const float* const certainties = image.certainty.data() + image.row_begin(row);
   const auto ends_at = [&](std::int32_t column, std::int32_t at_row, float inverse_depth) {
     const Eigen::Vector3f ray = view.camera.ray(static_cast<float>(column), static_cast<float>(at_row));
@@ -100,20 +114,24 @@ void HiddenPartFinder::look_at_row(const MeasuredImage& image, const SensorView&
   for (std::int32_t column = 0; column < image.width; ++column) {
     const Pixel here{column, depths[column]};
     if (!(here.inverse_depth > 0.0F)) continue;
+    if (row > 0 && column > 0 &&
+        goes_on_smoothly(here.inverse_depth, depths[column - 1], row_above[column], certainties[column])) {
+      before = here;
+      continue;
+    }
     const float clearly =
         std::max(kNearer_sigmas / certainties[column], kNearer_m * here.inverse_depth * here.inverse_depth);
     if (const Pixel* const far = farther_of(before, here, frame.per_column, clearly)) {
       if (goes_on_above(worker.outline_row, far->place, row)) ends_at(far->place, row, far->inverse_depth);
       worker.outline_row[static_cast<std::size_t>(far->place)] = row;
     }
-    Pixel& above = worker.above[static_cast<std::size_t>(column)];
+    const Pixel above = last_above(image, row, column);
     const Pixel below{row, here.inverse_depth};
     if (const Pixel* const far = farther_of(above, below, frame.per_row, clearly)) {
       if (column - outline_column <= kGoesOn_px) ends_at(column, far->place, far->inverse_depth);
       outline_column = column;
     }
     before = here;
-    above = below;
   }
 }
 

@@ -31,7 +31,6 @@ class HiddenPartFinder {
   /// What one worker sees.
   struct Worker {
     std::vector<std::uint8_t> passed;       ///< a cell: a ray past an outline ends in it
-    std::vector<Pixel> above;               ///< a column
     std::vector<std::int32_t> outline_row;  ///< a column: the last row in which an outline went beside it
   };
   /// Where rays end, and how a level floor's inverse depth grows from pixel to pixel.
@@ -41,6 +40,7 @@ class HiddenPartFinder {
     float per_column, per_row;  ///< 1/m
   };
   static Frame frame_of(const SensorView& view);
+  static Pixel last_above(const MeasuredImage& image, std::int32_t row, std::int32_t column);
   static const Pixel* farther_of(const Pixel& first, const Pixel& second, float floor_growth, float clearly);
   static void look_at_rows(const MeasuredImage& image, const SensorView& view, const CellWindow& window,
                            const Frame& frame, int first_row, int end_row, Worker& worker);
