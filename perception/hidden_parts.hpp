@@ -15,7 +15,8 @@ namespace floornav {
 ///
 /// The outline lies between two neighbouring pixels of which one is clearly nearer than a floor through the
 /// other would be there; pixels that measured nothing (the shadow of the projector) may lie between them.
-/// Where enough rays past an outline end in a cell, it goes through it.
+/// It goes on in the next row or column, as noise does not. It goes through the cells in which the rays just
+/// past it end.
 class HiddenPartFinder {
  public:
   /// Writes to `hidden` for each cell of the window whether a part of it is hidden.
