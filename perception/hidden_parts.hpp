@@ -24,29 +24,15 @@ class HiddenPartFinder {
             std::vector<std::uint8_t>& hidden);
 
  private:
-  /// The last pixel of a row or a column that measured something.
-  struct Pixel {
-    std::int32_t place = -1;  ///< column or row; far away: there was none
-    float inverse_depth = 0;  ///< 1/m
-  };
   /// What one worker sees.
   struct Worker {
     std::vector<std::uint8_t> passed;       ///< a cell: a ray past an outline ends in it
     std::vector<std::int32_t> outline_row;  ///< a column: the last row in which an outline went beside it
+    std::vector<std::int32_t> steps;        ///< columns of a row where outlines may be
   };
-  /// Where rays end, and how a level floor's inverse depth grows from pixel to pixel.
-  struct Frame {
-    Eigen::Matrix3f R_world_sensor;
-    Eigen::Vector3d sensor_m;
-    float per_column, per_row;  ///< 1/m
-  };
-  static Frame frame_of(const SensorView& view);
-  static Pixel last_above(const MeasuredImage& image, std::int32_t row, std::int32_t column);
-  static const Pixel* farther_of(const Pixel& first, const Pixel& second, float floor_growth, float clearly);
-  static void look_at_rows(const MeasuredImage& image, const SensorView& view, const CellWindow& window,
-                           const Frame& frame, int first_row, int end_row, Worker& worker);
-  static void look_at_row(const MeasuredImage& image, const SensorView& view, const CellWindow& window,
-                          const Frame& frame, int row, Worker& worker);
+  struct Sight;
+  static void look_at_rows(const Sight& sight, int first_row, int end_row, Worker& worker);
+  static void look_at_row(const Sight& sight, int row, Worker& worker);
 
   std::vector<Worker> workers_;
 };
