@@ -99,6 +99,9 @@ float DecidingSurfel::thrown_m() const {
 /// that in a cell.
 DecidingSurfel find_deciding_surfel(std::span<const CellPoint> points, std::size_t surfels,
                                     CellScratch& scratch) {
+  const std::int16_t first = points.front().surfel;
+  if (std::all_of(points.begin(), points.end(), [first](const CellPoint& p) { return p.surfel == first; }))
+    return first < 0 ? DecidingSurfel{} : part_of(points, first);
   scratch.surfel_points.resize(std::max(scratch.surfel_points.size(), surfels), 0);
   for (const CellPoint& p : points)
     if (p.surfel >= 0) ++scratch.surfel_points[static_cast<std::size_t>(p.surfel)];

@@ -44,8 +44,12 @@ HWY_INLINE void place(D lanes, std::size_t i, const RoiCloud& cloud, std::span<c
   const auto on_plane = hn::RebindMask(lanes, hn::Gt(labels, hn::Set(integers, kNoPlane)));
   const auto counts = hn::Gt(labels, hn::Set(integers, kNoPlane - 1));
   const auto plane = hn::Add(hn::Max(labels, hn::Zero(integers)), hn::Set(integers, first_plane));
-  const auto of_plane = [&](const std::vector<float>& values)
-                            HWY_ATTR { return hn::GatherIndex(lanes, values.data(), plane); };
+  const std::int32_t first = hn::GetLane(plane);
+  const bool is_one_plane = hn::AllTrue(integers, hn::Eq(plane, hn::Set(integers, first)));
+  const auto of_plane = [&](const std::vector<float>& values) HWY_ATTR {
+    return is_one_plane ? hn::Set(lanes, values[static_cast<std::size_t>(first)])
+                        : hn::GatherIndex(lanes, values.data(), plane);
+  };
   const auto turned = [&](int axis) HWY_ATTR {
     const Eigen::Matrix3f& R = frame.R_world_sensor;
     return hn::Add(

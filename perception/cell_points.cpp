@@ -8,7 +8,8 @@ namespace floornav {
 namespace {
 
 constexpr std::int32_t kPointsPerPiece = 16384;
-constexpr std::size_t kShares = 4;  ///< whatever the number of workers
+constexpr std::size_t kShares = 4;       ///< whatever the number of workers
+constexpr std::int32_t kNotWanted = -1;  ///< instead of a place
 
 }  // namespace
 
@@ -47,47 +48,67 @@ void CellSorter::sort(const RoiCloud& cloud, std::span<const std::int16_t> label
                       std::span<const SectionResult> sections, int end, const CellSections& cells,
                       bool is_near, Parallel& parallel, CellPoints& out) {
   const std::int64_t points = cloud.section_end[static_cast<std::size_t>(end) - 1];
-  const auto bound = [points](std::size_t share) {
-    return static_cast<std::int32_t>(points * static_cast<std::int64_t>(share) /
-                                     static_cast<std::int64_t>(kShares));
+  const auto bound = [points](std::int64_t share) {
+    return static_cast<std::int32_t>(points * share / static_cast<std::int64_t>(kShares));
   };
   shares_.resize(kShares);
-  const auto is_wanted = [&](std::int32_t cell) { return cell >= 0 && cells.is_near(cell) == is_near; };
   const auto count = [&](int number, int) {
-    const auto s = static_cast<std::size_t>(number);
-    Share& share = shares_[s];
-    share.begin = bound(s);
-    share.end = bound(s + 1);
-    share.next.assign(cells.size(), 0);
-    for (std::int32_t p = share.begin; p < share.end; ++p) {
-      const std::int32_t cell = placed_.cell[static_cast<std::size_t>(p)];
-      if (is_wanted(cell)) ++share.next[static_cast<std::size_t>(cell)];
-    }
+    Share& share = shares_[static_cast<std::size_t>(number)];
+    share.begin = bound(number);
+    share.end = bound(number + 1);
+    count_points(share, cells.size());
   };
   parallel.run(static_cast<int>(kShares), std::ref(count));
+  lay_out(cells, is_near, out);
+  const auto fill = [&](int number, int) {
+    fill_in(shares_[static_cast<std::size_t>(number)], cloud, label,
+            sections.first(static_cast<std::size_t>(end)), out);
+  };
+  parallel.run(static_cast<int>(kShares), std::ref(fill));
+}
+
+void CellSorter::count_points(Share& share, std::size_t cells) const {
+  share.next.assign(1 + cells, 0);
+  for (std::int32_t p = share.begin; p < share.end; ++p)
+    ++share.next[static_cast<std::size_t>(1 + placed_.cell[static_cast<std::size_t>(p)])];
+}
+
+/// Turns the numbers of points into places.
+void CellSorter::lay_out(const CellSections& cells, bool is_near, CellPoints& out) {
+  for (Share& share : shares_) share.next.front() = kNotWanted;
   out.cell_end.resize(cells.size());
   std::int32_t place = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    for (Share& share : shares_) place += std::exchange(share.next[c], place);
+    const bool is_wanted = cells.is_near(static_cast<std::int32_t>(c)) == is_near;
+    for (Share& share : shares_) {
+      std::int32_t& next = share.next[1 + c];
+      if (is_wanted) {
+        place += std::exchange(next, place);
+      } else {
+        next = kNotWanted;
+      }
+    }
     out.cell_end[c] = place;
   }
   out.points.resize(static_cast<std::size_t>(place));
-  const auto fill = [&](int number, int) {
-    Share& share = shares_[static_cast<std::size_t>(number)];
-    for (int section = 0; section < end; ++section) {
-      const std::int32_t last = std::min(share.end, cloud.section_end[static_cast<std::size_t>(section)]);
-      const int first_surfel = sections[static_cast<std::size_t>(section)].first_surfel;
-      for (std::int32_t p = std::max(share.begin, cloud.section_begin(section)); p < last; ++p) {
-        const auto i = static_cast<std::size_t>(p);
-        if (!is_wanted(placed_.cell[i])) continue;
-        const int surfel = label[i] >= 0 ? first_surfel + label[i] : -1;
-        out.points[static_cast<std::size_t>(share.next[static_cast<std::size_t>(placed_.cell[i])]++)] = {
-            static_cast<std::int16_t>(surfel), placed_.z_m[i], placed_.rise_m[i], placed_.var_m2[i],
-            placed_.common_m2[i]};
-      }
+}
+
+void CellSorter::fill_in(Share& share, const RoiCloud& cloud, std::span<const std::int16_t> label,
+                         std::span<const SectionResult> sections, CellPoints& out) const {
+  for (std::size_t section = 0; section < sections.size(); ++section) {
+    const std::int32_t last = std::min(share.end, cloud.section_end[section]);
+    const int first_surfel = sections[section].first_surfel;
+    for (std::int32_t p = std::max(share.begin, cloud.section_begin(static_cast<int>(section))); p < last;
+         ++p) {
+      const auto i = static_cast<std::size_t>(p);
+      std::int32_t& next = share.next[static_cast<std::size_t>(1 + placed_.cell[i])];
+      if (next == kNotWanted) continue;
+      const int surfel = label[i] >= 0 ? first_surfel + label[i] : -1;
+      out.points[static_cast<std::size_t>(next++)] = {static_cast<std::int16_t>(surfel), placed_.z_m[i],
+                                                      placed_.rise_m[i], placed_.var_m2[i],
+                                                      placed_.common_m2[i]};
     }
-  };
-  parallel.run(static_cast<int>(kShares), std::ref(fill));
+  }
 }
 
 }  // namespace floornav

@@ -61,9 +61,13 @@ class CellSorter {
   /// Points that one worker sorts: [begin, end).
   struct Share {
     std::int32_t begin, end;
-    std::vector<std::int32_t> next;  ///< a cell: number of points, then the place of the next one
+    std::vector<std::int32_t> next;  ///< no cell, each cell: number of points, then the place of the next one
   };
   void cut_pieces(const RoiCloud& cloud, int first, int end);
+  void count_points(Share& share, std::size_t cells) const;
+  void lay_out(const CellSections& cells, bool is_near, CellPoints& out);
+  void fill_in(Share& share, const RoiCloud& cloud, std::span<const std::int16_t> label,
+               std::span<const SectionResult> sections, CellPoints& out) const;
 
   float roughness_m_;
   std::vector<Piece> pieces_;

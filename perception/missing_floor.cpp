@@ -23,9 +23,7 @@ constexpr int kCellsPerPiece = 64;
 constexpr int kAtOnce_px = 16;
 
 bool all_returned(const float* depths) {
-  int returned = 0;
-  for (int k = 0; k < kAtOnce_px; ++k) returned += depths[k] > 0.0F ? 1 : 0;
-  return returned == kAtOnce_px;
+  return Eigen::Map<const Eigen::Array<float, kAtOnce_px, 1>>(depths).minCoeff() > 0.0F;
 }
 
 /// A plane through `point` with `normal`, both in the sensor frame, the sensor on its positive side.
@@ -120,11 +118,18 @@ std::int32_t MissingFloorFinder::aimed_cell(const Eigen::Vector3f& ray, float ex
 void MissingFloorFinder::charge_row(const MeasuredImage& image, const SensorView& view, int row,
                                     const Aim& aim, const CellWindow& window, Charges& charges) const {
   const float* const depths = image.inverse_depth.data() + image.row_begin(row);
-  for (int begin = 0; begin < image.width; ++begin) {
-    if (begin + kAtOnce_px <= image.width && all_returned(depths + begin)) begin += kAtOnce_px - 1;
-    if (depths[begin] > 0.0F) continue;
-    int end = begin;
-    while (end < image.width && !(depths[end] > 0.0F)) ++end;
+  const auto next = [&](int column, bool returned) {
+    while (column < image.width && (depths[column] > 0.0F) != returned) ++column;
+    return column;
+  };
+  for (int begin = 0; begin < image.width;) {
+    if (begin + kAtOnce_px <= image.width && all_returned(depths + begin)) {
+      begin += kAtOnce_px;
+      continue;
+    }
+    begin = next(begin, false);
+    if (begin == image.width) return;
+    const int end = next(begin, true);
     const float before = begin > 0 ? depths[begin - 1] : 0.0F;
     const float after = end < image.width ? depths[end] : 0.0F;
     charge_gap(
