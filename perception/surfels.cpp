@@ -1,5 +1,7 @@
 #include "perception/surfels.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -32,21 +34,48 @@ Surfel surfel_of(const SectionPlane& found, const PlaneSums& sums, int section, 
   return surfel;
 }
 
+/// What some neighbouring points of one plane add to its sums.
+struct Terms {
+  static constexpr std::int32_t kMost = 64;
+  std::array<float, kMost> x, y, z, squared_distance, cubed_depth;
+
+  /// A loop that compilers make vectors of.
+  void work_out(const RoiCloud& cloud, std::int32_t begin, std::int32_t end, const InverseDepthPlane& plane,
+                float plane_distance_m) {
+    const auto first = static_cast<std::size_t>(begin);
+    const auto count = static_cast<std::size_t>(end - begin);
+    const float* const ray_x = cloud.ray_x.data() + first;
+    const float* const ray_y = cloud.ray_y.data() + first;
+    const float* const measured_z = cloud.z.data() + first;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float inverse_depth = plane.inverse_depth(ray_x[i], ray_y[i]);
+      const float depth = 1.0F / inverse_depth;
+      // The plane's distance times its inverse depth along a ray is the cosine that the ray has with it.
+      const float distance = (measured_z[i] - depth) * inverse_depth * plane_distance_m;
+      x[i] = depth * ray_x[i];
+      y[i] = depth * ray_y[i];
+      z[i] = depth;
+      squared_distance[i] = distance * distance;
+      cubed_depth[i] = depth * depth * depth;
+    }
+  }
+};
+
 /// Adds neighbouring points of one plane.
 void add_run(const RoiCloud& cloud, std::int32_t begin, std::int32_t end, const InverseDepthPlane& plane,
              float pixel_area, PlaneSums& total) {
   double x = 0.0, y = 0.0, z = 0.0, squared_distance = 0.0, cubed_depth = 0.0;
-  for (std::int32_t p = begin; p < end; ++p) {
-    const auto i = static_cast<std::size_t>(p);
-    const float inverse_depth = plane.inverse_depth(cloud.ray_x[i], cloud.ray_y[i]);
-    const float depth = 1.0F / inverse_depth;
-    // The plane's distance times its inverse depth along a ray is the cosine that the ray has with it.
-    const float distance = (cloud.z[i] - depth) * inverse_depth * total.plane_distance_m;
-    x += static_cast<double>(depth * cloud.ray_x[i]);
-    y += static_cast<double>(depth * cloud.ray_y[i]);
-    z += static_cast<double>(depth);
-    squared_distance += static_cast<double>(distance * distance);
-    cubed_depth += static_cast<double>(depth * depth * depth);
+  Terms terms;
+  for (std::int32_t p = begin; p < end; p += Terms::kMost) {
+    const std::int32_t last = std::min(end, p + Terms::kMost);
+    terms.work_out(cloud, p, last, plane, total.plane_distance_m);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(last - p); ++i) {
+      x += static_cast<double>(terms.x[i]);
+      y += static_cast<double>(terms.y[i]);
+      z += static_cast<double>(terms.z[i]);
+      squared_distance += static_cast<double>(terms.squared_distance[i]);
+      cubed_depth += static_cast<double>(terms.cubed_depth[i]);
+    }
   }
   total.position += Eigen::Vector3d(x, y, z);
   total.squared_distance += squared_distance;
