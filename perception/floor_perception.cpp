@@ -61,7 +61,7 @@ const FloorEvidence& FloorPerception::process(const DepthFrame& whole_frame, con
   return evidence_;
 }
 
-/// Makes the frame's points; empties what the frame before has left.
+/// Makes the nearest row's points; empties what the frame before has left.
 void FloorPerception::begin(const Passage& passage) {
   const auto& [frame, view, parallel, admit, end_stage, end_near_row] = passage;
   evidence_.utime_us = frame.utime_us;
@@ -72,6 +72,7 @@ void FloorPerception::begin(const Passage& passage) {
   evidence_.surfels.clear();
   evidence_.cells.clear();
   evidence_.pixels = clipper_.clip(frame, view, parallel, cloud_);
+  clipper_.fill(0, grid_.y_res(), parallel, cloud_);
   search_.begin(cloud_, frame.utime_us, parallel.workers());
   end_stage(PerceptionStage::kRoi);
   cells_.begin(clipper_.image(), cloud_, view, parallel);
@@ -111,6 +112,7 @@ void FloorPerception::search(const Passage& passage) {
   auto turn = turns_.begin();
   const auto next_section = [&]() -> int {
     const std::lock_guard lock(mutex);
+    if (turn - turns_.begin() == grid_.y_res()) fill_others(passage);
     while (turn != turns_.end()) {
       const int section = *turn++;
       if (section < grid_.y_res() || passage.admit(work_of(section))) return section;
@@ -125,6 +127,12 @@ void FloorPerception::search(const Passage& passage) {
     if (section < grid_.y_res() && --near_left == 0) finish_near_row(passage);
   };
   passage.parallel.run(grid_.count(), std::ref(search_one));
+}
+
+/// Makes the points beyond the nearest row.
+void FloorPerception::fill_others(const Passage& passage) {
+  clipper_.fill(grid_.y_res(), grid_.count(), passage.parallel, cloud_);
+  if (passage.parallel.workers() == 1) passage.end_stage(PerceptionStage::kRoi);
 }
 
 void FloorPerception::finish_near_row(const Passage& passage) {

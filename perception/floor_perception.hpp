@@ -60,6 +60,7 @@ class FloorPerception {
   void begin(const Passage& passage);
   void order_sections(const SensorView& view);
   void search(const Passage& passage);
+  void fill_others(const Passage& passage);
   void finish_near_row(const Passage& passage);
   void collect(int first_section, int end_section, const Passage& passage);
   [[nodiscard]] std::int64_t work_of(int section) const;

@@ -21,10 +21,6 @@ PixelCounts RoiClipper::clip(const DepthFrame& frame, const SensorView& view, Pa
   };
   parallel.run(rows.count(), std::ref(sort));
   lay_out(cloud);
-  const auto fill = [&](int band, int) {
-    fill_band(rows.first(band), rows.end(band), bands_[static_cast<std::size_t>(band)], cloud);
-  };
-  parallel.run(rows.count(), std::ref(fill));
   PixelCounts total;
   for (const Band& band : bands_) {
     total.no_measurement += band.counts.no_measurement;
@@ -71,7 +67,15 @@ void RoiClipper::sort_band(const DepthFrame& frame, const SensorView& view, int 
     for (int column = 0; column < image_.width; ++column)
       if (sections[column] >= 0) ++band.next[static_cast<std::size_t>(sections[column])];
   }
-  for (const std::int32_t points : band.next) band.counts.in_roi += points;
+  band.first_section = grid_.count();
+  band.end_section = 0;
+  for (int section = 0; section < grid_.count(); ++section) {
+    const std::int32_t points = band.next[static_cast<std::size_t>(section)];
+    if (points == 0) continue;
+    band.counts.in_roi += points;
+    band.first_section = std::min(band.first_section, section);
+    band.end_section = section + 1;
+  }
 }
 
 /// Turns the bands' numbers of points into places: by section, then by band.
@@ -94,11 +98,20 @@ void RoiClipper::lay_out(RoiCloud& cloud) {
   cloud.block.resize(size);
 }
 
-void RoiClipper::fill_band(int first_row, int end_row, Band& band, RoiCloud& cloud) const {
+void RoiClipper::fill(int first_section, int end_section, Parallel& parallel, RoiCloud& cloud) {
+  const RowBands rows{image_.height};
+  const auto fill = [&](int band, int) { fill_band(band, first_section, end_section, cloud); };
+  parallel.run(rows.count(), std::ref(fill));
+}
+
+void RoiClipper::fill_band(int number, int first_section, int end_section, RoiCloud& cloud) {
+  const RowBands rows{image_.height};
+  Band& band = bands_[static_cast<std::size_t>(number)];
+  if (band.end_section <= first_section || band.first_section >= end_section) return;
   const auto width = static_cast<std::size_t>(image_.width);
   const auto blocks_per_row =
       static_cast<std::int32_t>((width + PixelBlocks::kSide_px - 1) / PixelBlocks::kSide_px);
-  for (int row = first_row; row < end_row; ++row) {
+  for (int row = rows.first(number); row < rows.end(number); ++row) {
     const std::size_t first = image_.row_begin(row);
     const float ray_y = ray_y_[static_cast<std::size_t>(row)];
     const std::int32_t first_block = row / PixelBlocks::kSide_px * blocks_per_row;
@@ -107,7 +120,7 @@ void RoiClipper::fill_band(int first_row, int end_row, Band& band, RoiCloud& clo
       const int section = section_of_pixel_[first + column];
       std::size_t end = column + 1;
       while (end < width && section_of_pixel_[first + end] == section) ++end;
-      if (section >= 0) {
+      if (section >= first_section && section < end_section) {
         std::int32_t& next = band.next[static_cast<std::size_t>(section)];
         fill_run({first, column, end, ray_y, first_pixel, first_block}, static_cast<std::size_t>(next),
                  cloud);

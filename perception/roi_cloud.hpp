@@ -40,8 +40,12 @@ class RoiClipper {
  public:
   RoiClipper(const RoiSettings& settings, const SectionGrid& grid) : settings_(settings), grid_(grid) {}
 
-  /// Fills `cloud`; tells what became of the pixels. Bands of rows are independent work.
+  /// Finds the points and gives each a place in `cloud`; tells what became of the pixels. Bands of rows are
+  /// independent work.
   PixelCounts clip(const DepthFrame& frame, const SensorView& view, Parallel& parallel, RoiCloud& cloud);
+
+  /// Fills the places of the sections [first, end); each section once.
+  void fill(int first_section, int end_section, Parallel& parallel, RoiCloud& cloud);
 
   /// All that the last frame measured, inside the ROI or not.
   [[nodiscard]] const MeasuredImage& image() const { return image_; }
@@ -49,7 +53,8 @@ class RoiClipper {
  private:
   struct Band {
     PixelCounts counts;
-    std::vector<std::int32_t> next;  ///< a section: number of points, then the place of the next one
+    std::vector<std::int32_t> next;          ///< a section: number of points, then the place of the next one
+    int first_section = 0, end_section = 0;  ///< its points lie in these
   };
   /// Neighbouring pixels [column, end) of one section in a row.
   struct Run {
@@ -60,7 +65,7 @@ class RoiClipper {
   void find_rays(const Pinhole& camera);
   void sort_band(const DepthFrame& frame, const SensorView& view, int first_row, int end_row, Band& band);
   void lay_out(RoiCloud& cloud);
-  void fill_band(int first_row, int end_row, Band& band, RoiCloud& cloud) const;
+  void fill_band(int number, int first_section, int end_section, RoiCloud& cloud);
   void fill_run(const Run& run, std::size_t place, RoiCloud& cloud) const;
 
   RoiSettings settings_;

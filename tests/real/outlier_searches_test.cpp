@@ -49,7 +49,9 @@ TEST_P(OutlierSearches, DecideTheSamePointForPoint) {
     ASSERT_TRUE(image.isContinuous() && image.type() == CV_16UC1) << files[f];
     const DepthFrame frame = frame_of(image, GetParam());
     RoiCloud cloud;
-    RoiClipper(roi, grid).clip(frame, SensorView(frame, Pose::Identity()), serial, cloud);
+    RoiClipper clipper(roi, grid);
+    clipper.clip(frame, SensorView(frame, Pose::Identity()), serial, cloud);
+    clipper.fill(0, grid.count(), serial, cloud);
     for (const int neighbors : {8, 20}) {
       OutlierRemover window({neighbors, 1.0, "window"}), nanoflann({neighbors, 1.0, "nanoflann"});
       for (int section = 0; section < grid.count(); ++section) {
