@@ -65,6 +65,7 @@ float StepRule::rise_m(const Surface& from, const Surface& to, std::size_t k) co
 bool is_rim(const VertexRef& place, const StepRule& rule) {
   const Surface from = place.surface();
   for (std::size_t k = 0; k < 8; ++k) {
+    if (step_open(place, k)) continue;  // drivable, and no step
     const VertexRef to = place.neighbour(k);
     if (!to) continue;
     if (begins_drop(to, k)) return true;

@@ -85,23 +85,23 @@ void FloorHeight::heights_of(const MapTile& tile, float far_from_floor_m,
   const CellIndex corner{tile.index.ix * MapTile::kSide, tile.index.iy * MapTile::kSide};
   const CellIndex first{between(corner.ix, side_).block, between(corner.iy, side_).block};
   const std::int32_t blocks = MapTile::kSide / side_ + 1;
-  std::vector<float> around;
-  for (std::int32_t y = 0; y <= blocks; ++y)
+  std::vector<float> around, lines_m;  // along a row of blocks: at their centres, at the columns of vertices
+  for (std::int32_t y = 0; y <= blocks; ++y) {
+    around.clear();
     for (std::int32_t x = 0; x <= blocks; ++x)
       around.push_back(block_height({first.ix + x, first.iy + y}).value_or(far_from_floor_m));
-  const auto at = [&](std::int32_t x, std::int32_t y) {
-    const std::int32_t place = y * (blocks + 1) + x;
-    return around[static_cast<std::size_t>(place)];
-  };
+    for (std::int32_t column = 0; column < MapTile::kSide; ++column) {
+      const Between bx = between(corner.ix + column, side_);
+      const auto x = static_cast<std::size_t>(bx.block - first.ix);
+      lines_m.push_back(std::lerp(around[x], around[x + 1], bx.fraction));
+    }
+  }
   heights_m.clear();
-  for (std::int32_t i = 0; i < GridTile::kVertices; ++i) {
-    const Between bx = between(corner.ix + i % MapTile::kSide, side_);
-    const Between by = between(corner.iy + i / MapTile::kSide, side_);
-    const std::int32_t x = bx.block - first.ix;
-    const std::int32_t y = by.block - first.iy;
-    const float near_m = std::lerp(at(x, y), at(x + 1, y), bx.fraction);
-    const float far_m = std::lerp(at(x, y + 1), at(x + 1, y + 1), bx.fraction);
-    heights_m.push_back(std::lerp(near_m, far_m, by.fraction));
+  for (std::int32_t row = 0; row < MapTile::kSide; ++row) {
+    const Between by = between(corner.iy + row, side_);
+    const float* const near_m = lines_m.data() + (by.block - first.iy) * MapTile::kSide;
+    for (std::int32_t column = 0; column < MapTile::kSide; ++column)
+      heights_m.push_back(std::lerp(near_m[column], near_m[MapTile::kSide + column], by.fraction));
   }
 }
 

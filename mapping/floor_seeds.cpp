@@ -27,7 +27,8 @@ std::vector<Candidate> candidates(const Pose& T_world_body, const Lattice& latti
     for (std::int32_t ix = first.ix; ix <= last.ix; ++ix) {
       const double x_m = lattice.center_of(ix);
       const double y_m = lattice.center_of(iy);
-      if (std::hypot(x_m - body.x(), y_m - body.y()) > kRadius_m) continue;
+      const Eigen::Vector2d from_body = Eigen::Vector2d(x_m, y_m) - body.head<2>();
+      if (from_body.squaredNorm() > kRadius_m * kRadius_m) continue;
       const VertexRef place = tiles.find_vertex({ix, iy});
       if (!place || !place.vertex().is(Vertex::kDrivable)) continue;
       const float above_m = place.surface().z_m - plane_height_m(T_world_body, x_m, y_m);
