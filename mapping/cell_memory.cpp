@@ -182,8 +182,21 @@ void CellMemory::see_through_top() {
   weaken(upper_, 1);
 }
 
+void CellMemory::doubt_floor(const CellView& view, bool was_known) {
+  constexpr std::int32_t kMostOfKnown = 2 * kOnEdge;
+  std::int32_t doubt = floor_doubt_;
+  if (view.sightings.empty()) {
+    doubt += view.no_return ? 1 : 0;
+  } else {
+    doubt = was_known ? std::min(doubt, kMostOfKnown) : 0;
+    doubt += view.on_edge ? kOnEdge : -1;
+  }
+  floor_doubt_ = static_cast<std::uint8_t>(std::clamp(doubt, 0, kMostFloorDoubt));
+}
+
 bool CellMemory::fuse(const CellView& view, const FusionLimits& limits) {
   Seen seen;
+  const bool was_known = lower_.exists();
   const bool floor_known = lower_.trusted() && !lower_.column;
   for (Sighting sighting : view.sightings) {
     if (floor_known && sighting.column && sighting.points < kSurePoints) sighting.points = 1;
@@ -191,11 +204,7 @@ bool CellMemory::fuse(const CellView& view, const FusionLimits& limits) {
   }
   const bool doubted = forget_unseen(view, limits, seen) | doubt_unsettled_floor(view, seen);
   merge(limits);
-  if (!view.sightings.empty()) {
-    no_return_frames_ = 0;
-  } else if (view.no_return && no_return_frames_ < kMostNoReturnFrames) {
-    ++no_return_frames_;
-  }
+  doubt_floor(view, was_known);
   return doubted || view.no_return || !view.sightings.empty();
 }
 

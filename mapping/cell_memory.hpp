@@ -44,6 +44,7 @@ struct CellView {
   float ray_z_m = std::numeric_limits<float>::infinity();  ///< lowest height at which a ray passed through
   bool no_return = false;                                  ///< no floor where one was expected
   bool partly_hidden = false;                              ///< by something nearer
+  bool on_edge = false;                                    ///< of the ground, or of what stands on it
 };
 
 /// How much two heights may differ and still be one surface.
@@ -57,15 +58,16 @@ struct FusionLimits {
 /// highest one that the robot would hit (things on the floor, table tops). Those between are not kept.
 class CellMemory {
  public:
-  static constexpr std::int32_t kMostNoReturnFrames = 31;  ///< that are counted
+  static constexpr std::int32_t kMostFloorDoubt = 31;
+  static constexpr std::int32_t kOnEdge = 3;  ///< doubt from which on an edge goes through what was seen
 
   CellMemory() = default;
   /// As it was remembered before.
-  CellMemory(const Level& lower, const Level& upper, float overhead_z_m, std::int32_t no_return_frames)
+  CellMemory(const Level& lower, const Level& upper, float overhead_z_m, std::int32_t floor_doubt)
       : lower_(lower),
         upper_(upper),
         overhead_z_m_(overhead_z_m),
-        no_return_frames_(static_cast<std::uint8_t>(std::min(no_return_frames, kMostNoReturnFrames))) {}
+        floor_doubt_(static_cast<std::uint8_t>(std::min(floor_doubt, kMostFloorDoubt))) {}
 
   /// Fuses one frame. A sighting supports the level that it fits (Kalman filter by both variances, so that
   /// nearer views win) or makes a new one; a few points alone above a floor that is already trusted decide
@@ -89,8 +91,10 @@ class CellMemory {
   void see_through_top();
   [[nodiscard]] const Level& lower() const { return lower_; }
   [[nodiscard]] const Level& upper() const { return upper_; }
-  /// Frames whose rays found no floor here, since one last did; at most kMostNoReturnFrames.
-  [[nodiscard]] std::int32_t no_return_frames() const { return no_return_frames_; }
+  /// Of a cell that was never seen, the frames whose rays found no floor here. Of one that was, three for
+  /// each frame in which an edge went through it less one for each other one, soon back to 0. At most
+  /// kMostFloorDoubt.
+  [[nodiscard]] std::int32_t floor_doubt() const { return floor_doubt_; }
   /// Lowest thing seen above the robot's height; NaN: none.
   [[nodiscard]] float overhead_z_m() const { return overhead_z_m_; }
   void see_overhead(float z_m) { overhead_z_m_ = std::fmin(overhead_z_m_, z_m); }
@@ -108,11 +112,12 @@ class CellMemory {
   /// A floor of which as many frames saw a part as saw it whole is not known.
   bool doubt_unsettled_floor(const CellView& view, Seen seen);
   void merge(const FusionLimits& limits);
+  void doubt_floor(const CellView& view, bool was_known);
 
   Level lower_;
   Level upper_;
   float overhead_z_m_ = std::numeric_limits<float>::quiet_NaN();
-  std::uint8_t no_return_frames_ = 0;
+  std::uint8_t floor_doubt_ = 0;
 };
 
 }  // namespace floornav

@@ -44,12 +44,12 @@ std::vector<CellStore::More>::const_iterator CellStore::place_of(std::size_t slo
 CellMemory CellStore::at(std::size_t slot) const {
   const std::uint64_t own = word(slot);
   if (own == 0) return {};
-  const auto no_return_frames = static_cast<std::int32_t>(own & kNoReturn);
+  const auto floor_doubt = static_cast<std::int32_t>(own & kFloorDoubt);
   if ((own & kMore) == 0)
-    return {PackedLevel(own).level(level_), {}, std::numeric_limits<float>::quiet_NaN(), no_return_frames};
+    return {PackedLevel(own).level(level_), {}, std::numeric_limits<float>::quiet_NaN(), floor_doubt};
   const More& more = *place_of(slot);
   return {PackedLevel(own).level(level_), PackedLevel(more.upper).level(level_), more.overhead_z_m,
-          no_return_frames};
+          floor_doubt};
 }
 
 std::uint64_t CellStore::deciding_word(std::size_t slot) const {
@@ -61,7 +61,7 @@ void CellStore::set(std::size_t slot, const CellMemory& memory) {
   const bool more = memory.upper().exists() || !std::isnan(memory.overhead_z_m());
   if (more || has_more(slot)) set_more(slot, memory);
   const std::uint64_t now = PackedLevel(memory.lower(), level_).word() |
-                            static_cast<std::uint64_t>(memory.no_return_frames()) | (more ? kMore : 0);
+                            static_cast<std::uint64_t>(memory.floor_doubt()) | (more ? kMore : 0);
   std::uint32_t& block = blocks_[block_of(slot)];
   if (block == kNoBlock && now == 0) return;
   if (block == kNoBlock) block = add_block();

@@ -48,7 +48,7 @@ class CellStore {
 
  private:
   /// Low bits of a cell's word; above them is its lower level.
-  static constexpr std::uint64_t kNoReturn = CellMemory::kMostNoReturnFrames;
+  static constexpr std::uint64_t kFloorDoubt = CellMemory::kMostFloorDoubt;
   static constexpr std::uint64_t kMore = 32;
   static_assert(kMore < 1U << PackedLevel::kFreeBits);
 

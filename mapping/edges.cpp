@@ -28,10 +28,11 @@ bool diagonal_open(const VertexRef& from, std::size_t k, std::uint8_t sides) {
 /// Whether there is no floor at a neighbour. Just behind an edge no sight line has fallen far: a vertex that
 /// was not seen, with a drop on its other side, belongs to it.
 bool begins_drop(const VertexRef& to, std::size_t k) {
-  if (to.vertex().is(Vertex::kNoReturn)) return true;
-  if (k % 2 != 0 || to.vertex().is(Vertex::kSeen)) return false;
+  if (to.vertex().is(Vertex::kSeen)) return false;
+  if (to.vertex().is(Vertex::kFloorEnds)) return true;
+  if (k % 2 != 0) return false;
   const VertexRef next = to.neighbour(k);
-  return next && next.vertex().is(Vertex::kNoReturn);
+  return next && next.vertex().is(Vertex::kFloorEnds) && !next.vertex().is(Vertex::kSeen);
 }
 
 bool on_border(const VertexRef& place) {

@@ -64,15 +64,15 @@ bool MapJudge::take_summary(std::span<const CellMemory> cells, std::int32_t side
                             std::size_t i) const {
   Vertex& vertex = tile.vertices[i];
   const std::uint8_t flags_before = vertex.flags;
-  std::int32_t no_return_frames = 0;
-  for (const CellMemory& cell : cells) no_return_frames = std::max(no_return_frames, cell.no_return_frames());
+  std::int32_t doubt = 0;
+  for (const CellMemory& cell : cells) doubt = std::max(doubt, cell.floor_doubt());
   const float pitch_m = rule_.resolution_m / static_cast<float>(side);
   const SquareSummary summary = summarise(cells, side, pitch_m, rule_.max_step_m);
   const bool gentle = std::hypot(summary.surface.gradient_x, summary.surface.gradient_y) <= max_rise_;
   vertex.set(Vertex::kSeen, summary.seen);
   vertex.set(Vertex::kStepped, summary.stepped);
   vertex.set(Vertex::kDrivable, summary.seen && gentle && !summary.stepped && !summary.surface.column);
-  vertex.set(Vertex::kNoReturn, !summary.seen && no_return_frames >= settings_.no_return_frames);
+  vertex.set(Vertex::kFloorEnds, doubt >= (summary.seen ? CellMemory::kOnEdge : settings_.no_return_frames));
   if (!tile.surfaces.empty()) tile.surfaces[i] = summary.surface;
   return vertex.flags != flags_before || tile.grid == nullptr ||
          (summary.seen && differs_noticeably(summary.surface, slope_deg(summary.surface), *tile.grid, i));
@@ -85,15 +85,15 @@ bool MapJudge::judge_vertex(const VertexRef& place, float floor_m) {
   bool differs = publish_clearance(place.tile->overhead_z_m(i), floor_m, grid, i);
   if (!vertex.is(Vertex::kSeen)) {
     vertex.set(Vertex::kFree, false);
-    const bool drop = vertex.is(Vertex::kNoReturn) && FloorReach::beside_floor(place);
+    const bool drop = vertex.is(Vertex::kFloorEnds) && FloorReach::beside_floor(place);
     return publish_unseen(drop, floor_m, grid, i) || differs;
   }
   const Surface surface = place.surface();
   const float slope = slope_deg(surface);
   const float belief_here = belief(surface.z_m - floor_m, slope);
   const bool believed = belief_here >= min_belief_;
-  vertex.set(Vertex::kFree, believed && vertex.is(Vertex::kDrivable) && !vertex.is(Vertex::kCutOff) &&
-                                !is_rim(place, rule_));
+  vertex.set(Vertex::kFree, believed && vertex.is(Vertex::kDrivable) &&
+                                !vertex.is(Vertex::kCutOff | Vertex::kFloorEnds) && !is_rim(place, rule_));
   return publish_seen(surface, slope, vertex.is(Vertex::kFree), belief_here, grid, i) || differs;
 }
 

@@ -88,10 +88,10 @@ class MemoryMover {
       const CellMemory cell = before_.cell(old);
       const Eigen::Vector2d from_center_m = place_m - center_m(old);
       cells[slot] = {moved(cell.lower(), from_center_m), moved(cell.upper(), from_center_m),
-                     cell.overhead_z_m() + static_cast<float>(motion_.shift_m.z()), cell.no_return_frames()};
+                     cell.overhead_z_m() + static_cast<float>(motion_.shift_m.z()), cell.floor_doubt()};
       const std::size_t vertex = slot / per_vertex;
       tile.seen().set(vertex, std::max(tile.seen()[vertex], old_vertex.tile->seen()[old_vertex.index()]));
-      known = known || cell.lower().exists() || cell.no_return_frames() > 0;
+      known = known || cell.lower().exists() || cell.floor_doubt() > 0;
     }
     tile.cells = CellStore(cells);
     return known;

@@ -28,7 +28,7 @@ void visit_settings(Visitor& visit, MappingSettings& s) {
   visit("memory_sigma_m", s.memory_sigma_m, Allowed{0.0001, 0.1});
   visit("overhead_margin_m", s.overhead_margin_m, Allowed{0.0, 1.0});
   visit("max_range_m", s.max_range_m, Allowed{0.5, 20.0});
-  visit("no_return_frames", s.no_return_frames, Allowed{1, CellMemory::kMostNoReturnFrames});
+  visit("no_return_frames", s.no_return_frames, Allowed{1, CellMemory::kMostFloorDoubt});
   visit("alignment", s.alignment);
 }
 

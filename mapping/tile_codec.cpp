@@ -20,7 +20,7 @@ constexpr std::int64_t kMostRise = 1'000'000;
 constexpr std::uint8_t kLower = 1;
 constexpr std::uint8_t kUpper = 2;
 constexpr std::uint8_t kOverhead = 4;
-constexpr std::uint8_t kNoReturn = 8;
+constexpr std::uint8_t kFloorDoubt = 8;
 constexpr std::uint8_t kColumn = 128;
 
 std::int64_t units(double value, double unit) {
@@ -86,7 +86,7 @@ std::uint8_t parts_of(const CellMemory& cell) {
   if (cell.lower().exists()) parts |= kLower;
   if (cell.upper().exists()) parts |= kUpper;
   if (!std::isnan(cell.overhead_z_m())) parts |= kOverhead;
-  if (cell.no_return_frames() > 0) parts |= kNoReturn;
+  if (cell.floor_doubt() > 0) parts |= kFloorDoubt;
   return parts;
 }
 
@@ -103,23 +103,23 @@ void write_cell(const CellMemory& cell, PreviousCell& previous, ByteWriter& out)
   if ((parts & kUpper) != 0) write_level(cell.upper(), previous.upper, out);
   if ((parts & kOverhead) != 0)
     write_difference(units(cell.overhead_z_m(), kHeightUnit_m), previous.overhead, out);
-  if ((parts & kNoReturn) != 0) out.byte(static_cast<std::uint8_t>(cell.no_return_frames()));
+  if ((parts & kFloorDoubt) != 0) out.byte(static_cast<std::uint8_t>(cell.floor_doubt()));
 }
 
 CellMemory read_cell(PreviousCell& previous, ByteReader& in) {
   const std::uint8_t parts = in.byte();
-  if (parts == 0 || parts > (kLower | kUpper | kOverhead | kNoReturn))
+  if (parts == 0 || parts > (kLower | kUpper | kOverhead | kFloorDoubt))
     throw std::invalid_argument("a cell with unknown parts");
   Level lower, upper;
   float overhead_z_m = std::numeric_limits<float>::quiet_NaN();
-  std::uint8_t no_return_frames = 0;
+  std::uint8_t floor_doubt = 0;
   if ((parts & kLower) != 0) lower = read_level(previous.lower, in);
   if ((parts & kUpper) != 0) upper = read_level(previous.upper, in);
   if ((parts & kOverhead) != 0)
     overhead_z_m = static_cast<float>(
         kHeightUnit_m * static_cast<double>(read_difference(previous.overhead, kMostHeight, in)));
-  if ((parts & kNoReturn) != 0) no_return_frames = in.byte();
-  return {lower, upper, overhead_z_m, no_return_frames};
+  if ((parts & kFloorDoubt) != 0) floor_doubt = in.byte();
+  return {lower, upper, overhead_z_m, floor_doubt};
 }
 
 /// Runs of empty and of other cells, in turn.

@@ -14,8 +14,8 @@ struct Vertex {
   static constexpr std::uint8_t kDrivable = 2;  ///< by its own slope and evenness
   static constexpr std::uint8_t kFloor = 4;     ///< joined to the robot's floor by open edges
   static constexpr std::uint8_t kCutOff = 8;    ///< every edge towards the robot's floor is closed by eq. (2)
-  static constexpr std::uint8_t kNoReturn =
-      16;  ///< never seen, and rays that should have found a floor went through
+  /// An edge goes through it; of one that was never seen: rays that should have found a floor went through.
+  static constexpr std::uint8_t kFloorEnds = 16;
   static constexpr std::uint8_t kFree = 32;   ///< the verdict on a vertex that was seen
   static constexpr std::uint8_t kAsked = 64;  ///< the search for what is cut off has been here
 

@@ -48,6 +48,7 @@ void ViewCoverage::begin(const FloorEvidence& evidence, std::span<const std::uin
   width_ = high.iy - low.iy + 1;
   const auto cells = static_cast<std::size_t>(length_) * static_cast<std::size_t>(width_);
   fullest_.assign(cells, Plane{});
+  is_level_.assign(cells, 0);
   side_top_z_m_.assign(cells, -std::numeric_limits<float>::infinity());
 }
 
@@ -60,6 +61,7 @@ void ViewCoverage::take(const FloorEvidence& evidence, std::span<const std::uint
     const float up = upright(cell, evidence);
     if (up >= kLeastUpright) {
       fullest_[place] = {cell.points, entry};
+      is_level_[place] = 1;
     } else if (cell.surfel >= 0 && up < kMostUpright && cell.points > 0) {
       side_top_z_m_[place] = std::max(side_top_z_m_[place], cell.top_z_m);
     }
@@ -93,14 +95,19 @@ bool ViewCoverage::is_behind_side(const FloorEvidence& evidence, const CellEvide
   const double share = std::min(1.0, lattice.pitch_m / way_m.norm());
   const Eigen::Vector2d before_m = middle_m + share * way_m;
   const CellIndex before = lattice.cell_of(before_m.x(), before_m.y());
-  if (before.ix < origin_.ix || before.ix >= origin_.ix + length_ || before.iy < origin_.iy ||
-      before.iy >= origin_.iy + width_)
-    return false;
+  if (!holds(before)) return false;
   constexpr double kClearly_m = 0.05;
   const double floor_z_m = static_cast<double>(cell.mean_z_m);
   if (before == cell.cell) return false;
   return static_cast<double>(side_top_z_m_[place_of(before)]) >
          floor_z_m + share * (sensor_m_.z() - floor_z_m) + kClearly_m;
+}
+
+bool ViewCoverage::is_beside_unseen(CellIndex cell) const {
+  for (std::int32_t x = cell.ix - 1; x <= cell.ix + 1; ++x)
+    for (std::int32_t y = cell.iy - 1; y <= cell.iy + 1; ++y)
+      if (!holds({x, y}) || is_level_[place_of({x, y})] == 0) return true;
+  return false;
 }
 
 Coverage ViewCoverage::of(const FloorEvidence& evidence, std::uint32_t entry) const {
@@ -113,7 +120,7 @@ Coverage ViewCoverage::of(const FloorEvidence& evidence, std::uint32_t entry) co
   const auto seen = static_cast<float>(cell.points);
   if (seen >= kSeenInPart * all || std::abs(above_m(cell, fullest, evidence)) > same_surface_m_)
     return Coverage::kWhole;
-  return seen < kHardlySeen * all ? Coverage::kGlimpse : Coverage::kPart;
+  return seen < kHardlySeen * all || is_beside_unseen(cell.cell) ? Coverage::kGlimpse : Coverage::kPart;
 }
 
 }  // namespace floornav

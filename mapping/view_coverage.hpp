@@ -44,17 +44,24 @@ class ViewCoverage {
     const std::int32_t place = (cell.ix - origin_.ix) * width_ + cell.iy - origin_.iy;
     return static_cast<std::size_t>(place);
   }
+  [[nodiscard]] bool holds(CellIndex cell) const {
+    return cell.ix >= origin_.ix && cell.ix < origin_.ix + length_ && cell.iy >= origin_.iy &&
+           cell.iy < origin_.iy + width_;
+  }
+  /// Whether no level plane was seen in some cell around.
+  [[nodiscard]] bool is_beside_unseen(CellIndex cell) const;
   [[nodiscard]] bool is_behind_side(const FloorEvidence& evidence, const CellEvidence& cell) const;
 
   float same_surface_m_;
   std::int32_t range_cells_ = 1;
   Eigen::Vector3d sensor_m_ = Eigen::Vector3d::Zero();
   CellIndex origin_;
-  std::int32_t length_ = 0;          ///< along x
-  std::int32_t width_ = 0;           ///< along y: the cells that lie one after the other
-  std::vector<Plane> fullest_;       ///< a cell: of those around it the one with the most points
-  std::vector<Plane> along_y_;       ///< the same, of those in its row only
-  std::vector<float> side_top_z_m_;  ///< a cell: of the sides in it, -infinity: none
+  std::int32_t length_ = 0;             ///< along x
+  std::int32_t width_ = 0;              ///< along y: the cells that lie one after the other
+  std::vector<Plane> fullest_;          ///< a cell: of those around it the one with the most points
+  std::vector<Plane> along_y_;          ///< the same, of those in its row only
+  std::vector<std::uint8_t> is_level_;  ///< a cell: a level plane decides it
+  std::vector<float> side_top_z_m_;     ///< a cell: of the sides in it, -infinity: none
 };
 
 }  // namespace floornav

@@ -51,6 +51,7 @@ CellView WorldMemory::view_of(const FloorEvidence& evidence, Entries entries) {
     view.ray_z_m = std::fmin(view.ray_z_m, cell.ray_z_m);
     view.no_return = view.no_return || cell.no_return;
     view.partly_hidden = view.partly_hidden || cell.partly_hidden;
+    view.on_edge = view.on_edge || cell.on_edge;
     reader_.read(cell, evidence, coverage_.of(evidence, i), sightings_);
   }
   if (sightings_.size() > 1) std::ranges::stable_sort(sightings_, {}, &Sighting::z_m);

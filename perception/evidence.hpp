@@ -35,6 +35,7 @@ struct CellEvidence {
   float ray_z_m = std::numeric_limits<float>::quiet_NaN();   ///< lowest height at which a ray passed through
   bool no_return = false;      ///< rays should have ended on a floor here and brought nothing back
   bool partly_hidden = false;  ///< the outline of something nearer goes through the cell
+  bool on_edge = false;        ///< the cell is level ground, but the border of that or a side goes through it
 };
 
 struct SectionReport {

@@ -25,13 +25,17 @@ float width_px(CellIndex cell, float z_m, const Lattice& lattice, const SensorVi
 
 }  // namespace
 
-FloorCells::FloorCells(const PerceptionSettings& settings, const SectionGrid& grid)
+FloorCells::FloorCells(const PerceptionSettings& settings, const RobotSettings& robot,
+                       const SectionGrid& grid)
     : roi_(settings.roi),
       settings_(settings.cells),
       grid_(grid),
+      max_step_m_(static_cast<float>(robot.max_step_m)),
       sorter_(settings.roi),
       tracer_(settings.roi, settings.cells),
-      missing_floor_finder_(settings.roi, grid) {}
+      missing_floor_finder_(settings.roi, grid),
+      outline_finder_(robot.max_step_m),
+      crossing_sides_(robot.max_step_m) {}
 
 void FloorCells::begin(const MeasuredImage& image, const RoiCloud& cloud, const SensorView& view,
                        Parallel& parallel) {
@@ -42,8 +46,9 @@ void FloorCells::begin(const MeasuredImage& image, const RoiCloud& cloud, const 
   noise_.clear();
   missing_floor_.assign(cell_sections_.size(), 0);
   rises_.assign(cell_sections_.size(), {});
+  crossing_sides_.begin(window_.count());
   tracer_.trace(image, view, window_, parallel, lowest_ray_z_m_);
-  hidden_part_finder_.find(image, view, window_, parallel, hidden_part_);
+  outline_finder_.find(image, view, window_, parallel, outlines_);
 }
 
 void FloorCells::add(int first, int end, const MeasuredImage& image, const RoiCloud& cloud,
@@ -106,6 +111,7 @@ void FloorCells::decide(std::size_t seen, std::span<const Surfel> surfels, CellS
   const auto points = points_.of(seen_[seen]);
   DecidingSurfel& decider = deciders_[seen];
   decider = points.empty() ? DecidingSurfel{} : find_deciding_surfel(points, surfels.size(), scratch);
+  crossing_sides_.note(seen_[seen], points, surfels);
   if (decider.surfel < 0) return;
   const bool floor = surfels[static_cast<std::size_t>(decider.surfel)].dominant;
   const float upright = surfels[static_cast<std::size_t>(decider.surfel)].normal.z();
@@ -124,12 +130,23 @@ void FloorCells::summarize_one(std::size_t seen, const SensorView& view, float a
   if (lowest_ray_z_m_[n] < std::numeric_limits<float>::infinity()) cell.ray_z_m = lowest_ray_z_m_[n];
   cell.no_return = missing_floor_[n] != 0;
   if (points.empty()) return;
-  cell.partly_hidden = hidden_part_[n] != 0;
+  cell.partly_hidden = outlines_.hidden[n] != 0;
   const CellNoise noise{width_px(cell.cell, points.front().z_m, evidence.lattice, view), alike_px};
   const auto significance = static_cast<float>(settings_.significance_sigmas);
   const float rise_m =
       deciders_[seen].surfel < 0 ? 0.0F : significant_rise(rises_, window_, number, significance, noise);
   summarize_cell(points, deciders_[seen], rise_m, scratch, cell);
+  cell.on_edge = is_on_edge(number, cell, evidence.surfels);
+}
+
+/// A ledge counts that is one of the cell's plane, not of what is above or below it.
+bool FloorCells::is_on_edge(std::int32_t number, const CellEvidence& cell,
+                            std::span<const Surfel> surfels) const {
+  if (cell.surfel < 0 || surfels[static_cast<std::size_t>(cell.surfel)].normal.z() <= kLevelUpright)
+    return false;
+  const float above_m = outlines_.ledge_z_m[static_cast<std::size_t>(number)] - cell.mean_z_m;
+  return std::abs(above_m) < 2.0F * max_step_m_ ||
+         crossing_sides_.cross(number, cell.mean_z_m, window_, surfels);
 }
 
 /// Lets the points of a thing's top that pass for points of its side not make the side higher.

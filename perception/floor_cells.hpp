@@ -7,11 +7,12 @@
 #include "perception/cell_evidence.hpp"
 #include "perception/cell_points.hpp"
 #include "perception/cell_sections.hpp"
+#include "perception/crossing_sides.hpp"
 #include "perception/evidence.hpp"
-#include "perception/hidden_parts.hpp"
 #include "perception/measured_image.hpp"
 #include "perception/missing_floor.hpp"
 #include "perception/noise_correlation.hpp"
+#include "perception/outlines.hpp"
 #include "perception/roi_cloud.hpp"
 #include "perception/section_result.hpp"
 #include "perception/sections.hpp"
@@ -19,6 +20,7 @@
 #include "perception/settings.hpp"
 #include "perception/sight_lines.hpp"
 #include "runtime/geometry/parallel.hpp"
+#include "runtime/geometry/robot.hpp"
 
 namespace floornav {
 
@@ -26,7 +28,7 @@ namespace floornav {
 /// others.
 class FloorCells {
  public:
-  FloorCells(const PerceptionSettings& settings, const SectionGrid& grid);
+  FloorCells(const PerceptionSettings& settings, const RobotSettings& robot, const SectionGrid& grid);
 
   /// Begins a frame: which cells there are, and which of them rays passed over.
   void begin(const MeasuredImage& image, const RoiCloud& cloud, const SensorView& view, Parallel& parallel);
@@ -43,16 +45,20 @@ class FloorCells {
   void decide(std::size_t seen, std::span<const Surfel> surfels, CellScratch& scratch);
   void summarize_one(std::size_t seen, const SensorView& view, float alike_px, const FloorEvidence& evidence,
                      CellScratch& scratch, CellEvidence& cell) const;
+  [[nodiscard]] bool is_on_edge(std::int32_t number, const CellEvidence& cell,
+                                std::span<const Surfel> surfels) const;
   void end_side(const DecidingSurfel& decider, const MeasuredImage& image, const SensorView& view,
                 const FloorEvidence& evidence, CellScratch& scratch, CellEvidence& cell) const;
 
   RoiSettings roi_;
   CellSettings settings_;
   SectionGrid grid_;
+  float max_step_m_;
   CellSorter sorter_;
   SightLineTracer tracer_;
   MissingFloorFinder missing_floor_finder_;
-  HiddenPartFinder hidden_part_finder_;
+  OutlineFinder outline_finder_;
+  CrossingSides crossing_sides_;
 
   // Of the frame in hand; kept so that a frame allocates nothing.
   CellWindow window_;
@@ -61,7 +67,7 @@ class FloorCells {
   CellPoints points_;
   std::vector<float> lowest_ray_z_m_;        ///< a cell
   std::vector<std::uint8_t> missing_floor_;  ///< a cell
-  std::vector<std::uint8_t> hidden_part_;    ///< a cell
+  Outlines outlines_;
   std::vector<std::int32_t> seen_;
   std::vector<DecidingSurfel> deciders_;  ///< a seen cell
   std::vector<CellRise> rises_;           ///< a cell of the window

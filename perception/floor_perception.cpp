@@ -37,7 +37,7 @@ FloorPerception::FloorPerception(const PerceptionSettings& settings, const Robot
       order_(grid_),
       clipper_(settings.roi, grid_),
       search_(settings, robot, grid_.count()),
-      cells_(settings, grid_),
+      cells_(settings, robot, grid_),
       ages_(static_cast<std::size_t>(grid_.count()), 0) {}
 
 void FloorPerception::set_compromise(const Compromise& compromise) {

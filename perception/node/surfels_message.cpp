@@ -107,7 +107,8 @@ surfel_cell_t to_message(const CellEvidence& cell, CellIndex origin, double orig
   m.top_z = cell.top_z_m - z;
   m.ray_z = cell.ray_z_m - z;
   m.flags = static_cast<std::int8_t>((cell.no_return ? surfel_cell_t::NO_RETURN : 0) |
-                                     (cell.partly_hidden ? surfel_cell_t::PARTLY_HIDDEN : 0));
+                                     (cell.partly_hidden ? surfel_cell_t::PARTLY_HIDDEN : 0) |
+                                     (cell.on_edge ? surfel_cell_t::ON_EDGE : 0));
   return m;
 }
 
@@ -202,8 +203,8 @@ Surfel surfel_of(const surfel_t& m, const FloorEvidence& evidence, const Eigen::
 CellEvidence cell_of(const surfel_cell_t& m, const surfels_t& frame) {
   require(m.surfel >= -1 && m.surfel < frame.n_surfels, "a cell's surfel is out of range");
   require(m.points >= 0, "a cell has a negative number of points");
-  require((m.flags & ~(surfel_cell_t::NO_RETURN | surfel_cell_t::PARTLY_HIDDEN)) == 0,
-          "unknown flag of a cell");
+  constexpr int kFlags = surfel_cell_t::NO_RETURN | surfel_cell_t::PARTLY_HIDDEN | surfel_cell_t::ON_EDGE;
+  require((m.flags & ~kFlags) == 0, "unknown flag of a cell");
   require(std::isnan(m.ray_z) || is_offset(m.ray_z), "absurd sight line");
   const auto z = static_cast<float>(frame.origin[2]);
   CellEvidence cell;
@@ -212,6 +213,7 @@ CellEvidence cell_of(const surfel_cell_t& m, const surfels_t& frame) {
   cell.ray_z_m = m.ray_z + z;
   cell.no_return = (m.flags & surfel_cell_t::NO_RETURN) != 0;
   cell.partly_hidden = (m.flags & surfel_cell_t::PARTLY_HIDDEN) != 0;
+  cell.on_edge = (m.flags & surfel_cell_t::ON_EDGE) != 0;
   if (m.points == 0) {
     require(m.surfel == -1, "a cell without points has a surfel");
     return cell;

@@ -202,9 +202,9 @@ TEST(CellMemory, TableTopFirstFloorBelowLater) {
 TEST(CellMemory, NoReturnCountsUntilSomethingIsSeen) {
   CellMemory memory;
   for (int view = 0; view < 300; ++view) memory.fuse({.sightings = {}, .no_return = true}, kLimits);
-  EXPECT_EQ(memory.no_return_frames(), CellMemory::kMostNoReturnFrames);
+  EXPECT_EQ(memory.floor_doubt(), CellMemory::kMostFloorDoubt);
   fuse(memory, {plane(0)});
-  EXPECT_EQ(memory.no_return_frames(), 0);
+  EXPECT_EQ(memory.floor_doubt(), 0);
 }
 
 TEST(CellMemory, TwoLevelsFartherApartThanAStepAndTheirNoiseMakeAnEdge) {

@@ -31,8 +31,8 @@ CellMemory random_cell(std::mt19937& random, float around_m) {
   const Level lower = random() % 4 == 0 ? Level{} : random_level(random, around_m);
   const Level upper = random() % 3 == 0 && lower.exists() ? random_level(random, around_m) : Level{};
   const float overhead_m = random() % 5 == 0 ? 300.25F : kNothing;
-  const auto no_return_frames = static_cast<std::int32_t>(random() % 32);
-  return {lower, upper, overhead_m, no_return_frames};
+  const auto floor_doubt = static_cast<std::int32_t>(random() % 32);
+  return {lower, upper, overhead_m, floor_doubt};
 }
 
 void expect_near(const Level& stored, const Level& level) {
@@ -48,7 +48,7 @@ void expect_near(const Level& stored, const Level& level) {
 void expect_near(const CellMemory& stored, const CellMemory& memory) {
   expect_near(stored.lower(), memory.lower());
   expect_near(stored.upper(), memory.upper());
-  ASSERT_EQ(stored.no_return_frames(), memory.no_return_frames());
+  ASSERT_EQ(stored.floor_doubt(), memory.floor_doubt());
   ASSERT_EQ(std::isnan(stored.overhead_z_m()), std::isnan(memory.overhead_z_m()));
   if (!std::isnan(memory.overhead_z_m())) {
     ASSERT_EQ(stored.overhead_z_m(), memory.overhead_z_m());
@@ -73,7 +73,7 @@ TEST_P(CellStores, HoldWhatWasSetLastInAnyOrder) {
     const CellMemory& cell = expected[slot];
     const bool more = cell.upper().exists() || !std::isnan(cell.overhead_z_m());
     ASSERT_EQ(store.has_more(slot), more);
-    ASSERT_EQ(store.is_empty(slot), !more && !cell.lower().exists() && cell.no_return_frames() == 0);
+    ASSERT_EQ(store.is_empty(slot), !more && !cell.lower().exists() && cell.floor_doubt() == 0);
   }
 }
 
@@ -109,7 +109,7 @@ TEST(CellStore, HeightsOutOfReachStayOnTheirSideAndSpoilNoOther) {
   EXPECT_NEAR(store.at(0).upper().z_m, 1 + CellStore::kReach_m, 0.02);
   EXPECT_NEAR(store.at(1).lower().z_m, 1 - CellStore::kReach_m, 0.02);
   EXPECT_NEAR(store.at(2).lower().z_m, 1 + CellStore::kReach_m, 0.02);
-  EXPECT_EQ(store.at(2).no_return_frames(), 7);
+  EXPECT_EQ(store.at(2).floor_doubt(), 7);
   EXPECT_EQ(store.at(2).lower().support, Level::kMost);
 }
 

@@ -63,8 +63,8 @@ TEST_P(RandomTiles, ComeBackToWithinTheUnitsOfThePackingAndPackTheSameAgain) {
     if (random() % 3 == 0) continue;
     const Level upper = random() % 4 == 0 ? random_level(random) : Level{};
     const float overhead_m = random() % 5 == 0 ? 1.2F : std::numeric_limits<float>::quiet_NaN();
-    const auto no_return_frames = static_cast<std::int32_t>(random() % 4);
-    tile.cells.set(i, {random_level(random), upper, overhead_m, no_return_frames});
+    const auto floor_doubt = static_cast<std::int32_t>(random() % 4);
+    tile.cells.set(i, {random_level(random), upper, overhead_m, floor_doubt});
     tile.seen().set(i, static_cast<std::uint32_t>(random() % 5));
     tile.vertices[i].set(Vertex::kFloor, random() % 2 == 0);
   }
@@ -87,7 +87,7 @@ TEST_P(RandomTiles, ComeBackToWithinTheUnitsOfThePackingAndPackTheSameAgain) {
       }
     }
     ASSERT_EQ(std::isnan(cell_after.overhead_z_m()), std::isnan(cell_before.overhead_z_m()));
-    ASSERT_EQ(cell_after.no_return_frames(), cell_before.no_return_frames());
+    ASSERT_EQ(cell_after.floor_doubt(), cell_before.floor_doubt());
     ASSERT_EQ(back.seen()[i], tile.seen()[i]);
     ASSERT_EQ(back.vertices[i].is(Vertex::kFloor), tile.vertices[i].is(Vertex::kFloor));
   }
