@@ -10,6 +10,7 @@ namespace floornav {
 namespace {
 
 constexpr std::int16_t kLeastPoints = 3;
+constexpr float kTouch_m = 0.05F;           // what is no farther from a plane may reach to it
 constexpr std::int16_t kMostPoints = 1000;  // that are counted
 
 /// Whether a side's plane cuts the square of a cell at a height.
@@ -49,7 +50,8 @@ bool CrossingSides::cross(std::int32_t cell, float z_m, const CellWindow& window
     for (std::int32_t u = std::max(0, x - 1); u <= std::min(window.size_x() - 1, x + 1); ++u) {
       const Side& side = sides_[static_cast<std::size_t>(v * window.size_x() + u)];
       if (side.points < kLeastPoints) continue;
-      if (std::max(side.highest_z_m, z_m) - std::min(side.lowest_z_m, z_m) <= least_height_m_) continue;
+      const float up_m = side.highest_z_m - z_m, down_m = z_m - side.lowest_z_m;
+      if (std::min(up_m, down_m) < -kTouch_m || std::max(up_m, down_m) <= least_height_m_) continue;
       if (cuts(surfels[static_cast<std::size_t>(side.surfel)], middle, z_m, window.lattice().pitch_m))
         return true;
     }

@@ -21,8 +21,8 @@ class CrossingSides {
   void begin(std::int32_t cells) { sides_.assign(static_cast<std::size_t>(cells), {}); }
   /// Keeps which side a cell's points lie on. Calls for different cells may come at once.
   void note(std::int32_t cell, std::span<const CellPoint> points, std::span<const Surfel> surfels);
-  /// Whether a side that is higher than the least height, and on which points of this cell or one beside it
-  /// lie, cuts the cell at its plane's height.
+  /// Whether a side cuts a cell of which the plane lies at `z_m`: one on which points of this cell or one
+  /// beside it lie, that reaches to the plane, and goes farther up or down from there than the least height.
   [[nodiscard]] bool cross(std::int32_t cell, float z_m, const CellWindow& window,
                            std::span<const Surfel> surfels) const;
 

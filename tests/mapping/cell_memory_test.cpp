@@ -1,6 +1,8 @@
 #include "mapping/cell_memory.hpp"
 
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <random>
 #include <vector>
@@ -205,6 +207,31 @@ TEST(CellMemory, NoReturnCountsUntilSomethingIsSeen) {
   EXPECT_EQ(memory.floor_doubt(), CellMemory::kMostFloorDoubt);
   fuse(memory, {plane(0)});
   EXPECT_EQ(memory.floor_doubt(), 0);
+}
+
+/// Frames of a floor, in which an edge was seen through the cell or not.
+void fuse_edges(CellMemory& memory, std::initializer_list<bool> on_edge) {
+  const std::array<Sighting, 1> floor{plane(0)};
+  for (const bool is_on_edge : on_edge) memory.fuse({.sightings = floor, .on_edge = is_on_edge}, kLimits);
+}
+
+TEST(CellMemory, AnEdgeThatOneFrameInFourShowsStays) {
+  CellMemory memory;
+  fuse_edges(memory, {true, true});
+  for (int turn = 0; turn < 20; ++turn) {
+    EXPECT_GE(memory.floor_doubt(), CellMemory::kOnEdge);
+    fuse_edges(memory, {false, false, false, true});
+  }
+}
+
+TEST(CellMemory, AnEdgeThatIsGoneIsForgottenAfterFourFrames) {
+  CellMemory memory;
+  for (int frame = 0; frame < 50; ++frame) fuse_edges(memory, {true});
+  fuse_edges(memory, {false, false, false});
+  EXPECT_GE(memory.floor_doubt(), CellMemory::kOnEdge);
+  fuse_edges(memory, {false});
+  EXPECT_LT(memory.floor_doubt(), CellMemory::kOnEdge);
+  EXPECT_NE(memory.decider(), nullptr);
 }
 
 TEST(CellMemory, TwoLevelsFartherApartThanAStepAndTheirNoiseMakeAnEdge) {

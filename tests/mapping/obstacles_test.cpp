@@ -82,6 +82,15 @@ TEST(WorldMap, PoleThatStandsOutOfAFloorCellBlocks) {
   EXPECT_NEAR(height_at(map, 2.01, 0.01), 0.4, 1e-4);
 }
 
+TEST(WorldMap, FloorThroughWhichAnEdgeGoesIsBlockedAloneAndKeepsItsHeight) {
+  FloorEvidence frame = see(flat(0.004));
+  for (CellEvidence& cell : frame.cells) cell.on_edge = cell.cell == CellIndex{40, 0};
+  const WorldMap map = mapped({frame, frame});
+  EXPECT_EQ(count(map, {}), (Counts{.free = 80 * 40 - 1, .blocked = 1}));
+  EXPECT_EQ(map.grid().state({40, 0}), VertexState::kBlocked);
+  EXPECT_NEAR(height_at(map, 2.025, 0.025), 0.004, 1e-3);
+}
+
 TEST(WorldMap, CellOnTheEdgeOfABoxInsideACoarseVertexBlocksIt) {
   MappingSettings settings;
   settings.resolution_m = 0.3;

@@ -59,6 +59,13 @@ TEST(ViewCoverage, CellWithFewerPointsIsSeenInPartOrHardly) {
   EXPECT_EQ(coverage_of(kCell, with_points(kCell, 3)), Coverage::kGlimpse);
 }
 
+TEST(ViewCoverage, CellWithFewerPointsBesideOneWithoutIsHardlySeen) {
+  FloorEvidence frame = with_points(kCell, 10);
+  std::erase_if(frame.cells, [](const CellEvidence& cell) { return cell.cell == CellIndex{42, 1}; });
+  EXPECT_EQ(coverage_of(kCell, frame), Coverage::kGlimpse);
+  EXPECT_EQ(coverage_of({41, 1}, frame), Coverage::kWhole);
+}
+
 TEST(ViewCoverage, SmallThingThatStandsOutOfTheFloorIsSeenWhole) {
   EXPECT_EQ(coverage_of(kCell, with_points(kCell, 3, 0.008)), Coverage::kWhole);
   EXPECT_EQ(coverage_of(kCell, with_points(kCell, 3, -0.008)), Coverage::kWhole);

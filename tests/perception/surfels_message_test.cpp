@@ -44,6 +44,8 @@ FloorEvidence sample_evidence(int cells_per_surfel) {
       cell.var_z_m2 = 1e-6F;
       cell.top_z_m = cell.mean_z_m + 0.01F;
       cell.ray_z_m = c % 2 == 0 ? 3.3F : kNan;
+      cell.partly_hidden = c % 3 == 0;
+      cell.on_edge = c % 5 == 0;
       e.cells.push_back(cell);
     }
   }
@@ -81,6 +83,8 @@ void expect_near_or_both_nan(float a, float b) {
 void expect_same_cell(const CellEvidence& a, const CellEvidence& b) {
   EXPECT_EQ(a.points, b.points);
   EXPECT_EQ(a.no_return, b.no_return);
+  EXPECT_EQ(a.partly_hidden, b.partly_hidden);
+  EXPECT_EQ(a.on_edge, b.on_edge);
   expect_near_or_both_nan(a.mean_z_m, b.mean_z_m);
   expect_near_or_both_nan(a.var_z_m2, b.var_z_m2);
   expect_near_or_both_nan(a.top_z_m, b.top_z_m);
@@ -228,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Corruption{"TopInfinite", [](surfels_t& m) { m.cells[1].top_z = kInf; }},
                     Corruption{"VarianceNegative", [](surfels_t& m) { m.cells[1].var_z = -1e-9F; }},
                     Corruption{"RayInfinite", [](surfels_t& m) { m.cells[1].ray_z = -kInf; }},
-                    Corruption{"CellFlags", [](surfels_t& m) { m.cells[1].flags = 4; }}),
+                    Corruption{"CellFlags", [](surfels_t& m) { m.cells[1].flags = 8; }}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace
