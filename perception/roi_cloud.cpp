@@ -43,6 +43,7 @@ void RoiClipper::find_rays(const Pinhole& camera) {
 void RoiClipper::sort_band(const DepthFrame& frame, const SensorView& view, int first_row, int end_row,
                            Band& band) {
   band.counts = {};
+  band.runs.clear();
   band.next.assign(static_cast<std::size_t>(grid_.count()), 0);
   const Eigen::Matrix3f R = view.T_body_sensor.linear().cast<float>();
   const MeasurementModel model(frame, static_cast<float>(settings_.roughness_m));
@@ -64,17 +65,21 @@ void RoiClipper::sort_band(const DepthFrame& frame, const SensorView& view, int 
     band.counts.too_near += counts.too_near;
     band.counts.too_uncertain += counts.too_uncertain;
     band.counts.outside_roi += counts.outside_roi;
-    for (int column = 0; column < image_.width; ++column)
-      if (sections[column] >= 0) ++band.next[static_cast<std::size_t>(sections[column])];
+    add_runs(row, sections, band);
   }
-  band.first_section = grid_.count();
-  band.end_section = 0;
-  for (int section = 0; section < grid_.count(); ++section) {
-    const std::int32_t points = band.next[static_cast<std::size_t>(section)];
-    if (points == 0) continue;
-    band.counts.in_roi += points;
-    band.first_section = std::min(band.first_section, section);
-    band.end_section = section + 1;
+  for (const std::int32_t points : band.next) band.counts.in_roi += points;
+}
+
+void RoiClipper::add_runs(int row, const std::int16_t* sections, Band& band) const {
+  for (std::int32_t column = 0; column < image_.width;) {
+    const std::int16_t section = sections[column];
+    std::int32_t end = column + 1;
+    while (end < image_.width && sections[end] == section) ++end;
+    if (section >= 0) {
+      band.runs.push_back({row, column, end, section});
+      band.next[static_cast<std::size_t>(section)] += end - column;
+    }
+    column = end;
   }
 }
 
@@ -99,57 +104,44 @@ void RoiClipper::lay_out(RoiCloud& cloud) {
 }
 
 void RoiClipper::fill(int first_section, int end_section, Parallel& parallel, RoiCloud& cloud) {
-  const RowBands rows{image_.height};
-  const auto fill = [&](int band, int) { fill_band(band, first_section, end_section, cloud); };
-  parallel.run(rows.count(), std::ref(fill));
+  const auto fill = [&](int band, int) {
+    fill_band(first_section, end_section, bands_[static_cast<std::size_t>(band)], cloud);
+  };
+  parallel.run(static_cast<int>(bands_.size()), std::ref(fill));
 }
 
-void RoiClipper::fill_band(int number, int first_section, int end_section, RoiCloud& cloud) {
-  const RowBands rows{image_.height};
-  Band& band = bands_[static_cast<std::size_t>(number)];
-  if (band.end_section <= first_section || band.first_section >= end_section) return;
-  const auto width = static_cast<std::size_t>(image_.width);
-  const auto blocks_per_row =
-      static_cast<std::int32_t>((width + PixelBlocks::kSide_px - 1) / PixelBlocks::kSide_px);
-  for (int row = rows.first(number); row < rows.end(number); ++row) {
-    const std::size_t first = image_.row_begin(row);
-    const float ray_y = ray_y_[static_cast<std::size_t>(row)];
-    const std::int32_t first_block = row / PixelBlocks::kSide_px * blocks_per_row;
-    const std::int32_t first_pixel = row * image_.width;
-    for (std::size_t column = 0; column < width;) {
-      const int section = section_of_pixel_[first + column];
-      std::size_t end = column + 1;
-      while (end < width && section_of_pixel_[first + end] == section) ++end;
-      if (section >= first_section && section < end_section) {
-        std::int32_t& next = band.next[static_cast<std::size_t>(section)];
-        fill_run({first, column, end, ray_y, first_pixel, first_block}, static_cast<std::size_t>(next),
-                 cloud);
-        next += static_cast<std::int32_t>(end - column);
-      }
-      column = end;
-    }
+void RoiClipper::fill_band(int first_section, int end_section, Band& band, RoiCloud& cloud) const {
+  for (const Run& run : band.runs) {
+    if (run.section < first_section || run.section >= end_section) continue;
+    std::int32_t& next = band.next[static_cast<std::size_t>(run.section)];
+    fill_run(run, static_cast<std::size_t>(next), cloud);
+    next += run.end - run.column;
   }
 }
 
-/// Neighbouring pixels of one section: plain loops over arrays, which the compiler turns into vectors.
+/// Plain loops over arrays, which the compiler turns into vectors.
 void RoiClipper::fill_run(const Run& run, std::size_t place, RoiCloud& cloud) const {
-  const std::size_t size = run.end - run.column;
-  const float* const inverse_depth = image_.inverse_depth.data() + run.row_begin + run.column;
-  const float* const certainty = image_.certainty.data() + run.row_begin + run.column;
-  const float* const ray_x = ray_x_.data() + run.column;
+  const auto column = static_cast<std::size_t>(run.column);
+  const auto size = static_cast<std::size_t>(run.end - run.column);
+  const float* const inverse_depth = image_.inverse_depth.data() + image_.row_begin(run.row) + column;
+  const float* const certainty = image_.certainty.data() + image_.row_begin(run.row) + column;
+  const float* const ray_x = ray_x_.data() + column;
+  const float ray_y = ray_y_[static_cast<std::size_t>(run.row)];
   for (std::size_t i = 0; i < size; ++i) cloud.z[place + i] = 1.0F / inverse_depth[i];
   for (std::size_t i = 0; i < size; ++i) cloud.x[place + i] = ray_x[i] * cloud.z[place + i];
-  for (std::size_t i = 0; i < size; ++i) cloud.y[place + i] = run.ray_y * cloud.z[place + i];
+  for (std::size_t i = 0; i < size; ++i) cloud.y[place + i] = ray_y * cloud.z[place + i];
   const auto at = static_cast<std::ptrdiff_t>(place);
   std::copy_n(ray_x, size, cloud.ray_x.begin() + at);
-  std::fill_n(cloud.ray_y.begin() + at, size, run.ray_y);
+  std::fill_n(cloud.ray_y.begin() + at, size, ray_y);
   std::copy_n(inverse_depth, size, cloud.inverse_depth.begin() + at);
   std::copy_n(certainty, size, cloud.certainty.begin() + at);
-  const auto column = static_cast<std::int32_t>(run.column);
+  constexpr std::int32_t kSide_px = PixelBlocks::kSide_px;
+  const std::int32_t first_pixel = run.row * image_.width;
+  const std::int32_t first_block = run.row / kSide_px * ((image_.width + kSide_px - 1) / kSide_px);
   for (std::size_t i = 0; i < size; ++i) {
-    const std::int32_t u = column + static_cast<std::int32_t>(i);
-    cloud.pixel[place + i] = run.first_pixel + u;
-    cloud.block[place + i] = run.first_block + u / PixelBlocks::kSide_px;
+    const std::int32_t u = run.column + static_cast<std::int32_t>(i);
+    cloud.pixel[place + i] = first_pixel + u;
+    cloud.block[place + i] = first_block + u / kSide_px;
   }
 }
 

@@ -51,21 +51,21 @@ class RoiClipper {
   [[nodiscard]] const MeasuredImage& image() const { return image_; }
 
  private:
-  struct Band {
-    PixelCounts counts;
-    std::vector<std::int32_t> next;          ///< a section: number of points, then the place of the next one
-    int first_section = 0, end_section = 0;  ///< its points lie in these
-  };
   /// Neighbouring pixels [column, end) of one section in a row.
   struct Run {
-    std::size_t row_begin, column, end;  ///< place of the row in the image
-    float ray_y;
-    std::int32_t first_pixel, first_block;  ///< of the row
+    std::int32_t row, column, end;
+    std::int32_t section;
+  };
+  struct Band {
+    PixelCounts counts;
+    std::vector<Run> runs;
+    std::vector<std::int32_t> next;  ///< a section: number of points, then the place of the next one
   };
   void find_rays(const Pinhole& camera);
   void sort_band(const DepthFrame& frame, const SensorView& view, int first_row, int end_row, Band& band);
+  void add_runs(int row, const std::int16_t* sections, Band& band) const;
   void lay_out(RoiCloud& cloud);
-  void fill_band(int number, int first_section, int end_section, RoiCloud& cloud);
+  void fill_band(int first_section, int end_section, Band& band, RoiCloud& cloud) const;
   void fill_run(const Run& run, std::size_t place, RoiCloud& cloud) const;
 
   RoiSettings settings_;

@@ -44,32 +44,41 @@ int lines_within(float distance, float tangent, float focal_px, int most) {
   return lines < static_cast<float>(most) ? static_cast<int>(lines) : most;
 }
 
+/// Looks at all, which vectors do faster than stopping at the first that does not.
+bool is_rising(std::span<const std::int32_t> values) {
+  int falls = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) falls += values[i] <= values[i - 1] ? 1 : 0;
+  return falls == 0;
+}
+
 }  // namespace
 
+/// Where each row's points begin, and which columns there are.
+void WindowImage::find_rows(std::span<const std::int32_t> pixel) {
+  row_begin_.assign(1, 0);
+  int first_column = image_width_, last_column = 0;
+  for (auto begin = pixel.begin(); begin != pixel.end();) {
+    const std::int32_t row_pixel =
+        (first_row_ + static_cast<std::int32_t>(row_begin_.size()) - 1) * image_width_;
+    const auto end = std::lower_bound(
+        begin, begin + std::min<std::ptrdiff_t>(image_width_, pixel.end() - begin), row_pixel + image_width_);
+    if (begin != end) {
+      first_column = std::min(first_column, *begin - row_pixel);
+      last_column = std::max(last_column, *(end - 1) - row_pixel);
+    }
+    row_begin_.push_back(static_cast<std::int32_t>(end - pixel.begin()));
+    begin = end;
+  }
+  first_column_ = first_column;
+  width_ = last_column - first_column + 1;
+}
+
 bool WindowImage::lay_out(const ImagePoints& cloud) {
+  if (cloud.pixel.front() < 0 || !is_rising(cloud.pixel)) return false;
   image_width_ = cloud.camera.width;
   first_row_ = cloud.pixel.front() / image_width_;
   height_ = cloud.pixel.back() / image_width_ - first_row_ + 1;
-  if (height_ < 1) return false;
-  row_begin_.clear();
-  int first_column = image_width_, last_column = 0;
-  std::int32_t row_end = 0;  // first pixel of the next row
-  std::int32_t previous = -1;
-  for (std::size_t i = 0; i < cloud.pixel.size(); ++i) {
-    const std::int32_t pixel = cloud.pixel[i];
-    if (pixel <= previous) return false;
-    previous = pixel;
-    while (pixel >= row_end) {
-      row_begin_.push_back(static_cast<std::int32_t>(i));
-      row_end = (first_row_ + static_cast<std::int32_t>(row_begin_.size())) * image_width_;
-    }
-    const int column = pixel - (row_end - image_width_);
-    first_column = std::min(first_column, column);
-    last_column = std::max(last_column, column);
-  }
-  row_begin_.push_back(static_cast<std::int32_t>(cloud.pixel.size()));
-  first_column_ = first_column;
-  width_ = last_column - first_column + 1;
+  find_rows(cloud.pixel);
   stride_ = width_ + 2 * kMargin_px + kMaxLanes;
   size_ = static_cast<std::size_t>(stride_ * (height_ + 2 * kMargin_px));
   for (auto* plane : {&x_, &y_, &z_}) plane->resize(std::max(plane->size(), size_));

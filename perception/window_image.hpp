@@ -67,6 +67,8 @@ class WindowImage {
  private:
   using Bounds = std::array<std::vector<float>, kMaxHalf_px + 1>;
 
+  void find_rows(std::span<const std::int32_t> pixel);
+
   int image_width_ = 0;
   int first_column_ = 0, first_row_ = 0;  ///< of the part
   int width_ = 0, height_ = 0;
