@@ -111,10 +111,13 @@ void FloorCells::decide(std::size_t seen, std::span<const Surfel> surfels, CellS
   const auto points = points_.of(seen_[seen]);
   DecidingSurfel& decider = deciders_[seen];
   decider = points.empty() ? DecidingSurfel{} : find_deciding_surfel(points, surfels.size(), scratch);
-  crossing_sides_.note(seen_[seen], points, surfels);
-  if (decider.surfel < 0) return;
+  const bool is_decided = decider.surfel >= 0;
+  const float upright = is_decided ? surfels[static_cast<std::size_t>(decider.surfel)].normal.z() : 0.0F;
+  // Mostly all points are on level ground, and there is no side to note.
+  const bool has_others = static_cast<std::size_t>(decider.rise.points) < points.size();
+  if (upright <= kSideUpright || has_others) crossing_sides_.note(seen_[seen], points, surfels);
+  if (!is_decided) return;
   const bool floor = surfels[static_cast<std::size_t>(decider.surfel)].dominant;
-  const float upright = surfels[static_cast<std::size_t>(decider.surfel)].normal.z();
   decider.slanted = upright > kSideUpright && upright <= kLevelUpright;
   decider.rise.group = floor ? CellRise::kFloor : decider.surfel;
   rises_[static_cast<std::size_t>(seen_[seen])] = decider.rise;

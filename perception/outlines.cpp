@@ -55,8 +55,8 @@ struct OutlinePixels {
   Pixel near, far;
 };
 
-std::optional<OutlinePixels> outline_between(const Pixel& first, const Pixel& second, float floor_growth,
-                                             float clearly) {
+inline std::optional<OutlinePixels> outline_between(const Pixel& first, const Pixel& second,
+                                                    float floor_growth, float clearly) {
   const float nearer = nearer_by(first.inverse_depth, second.inverse_depth, floor_growth);
   if (nearer > clearly) return OutlinePixels{second, first};
   if (-nearer > clearly) return OutlinePixels{first, second};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 
 #include "perception/pixel_blocks.hpp"
@@ -123,17 +124,39 @@ int claims(const PlanePool& pool, const float* distance, float threshold, float 
   return static_cast<int>(count);
 }
 
-template <class T, class Mask>
-HWY_INLINE void take(const T* from, Mask mask, bool all, T* to) {
+void take_one(const PoolSource& source, std::size_t i, std::size_t to, PlanePool& out) {
+  out.ray_x[to] = source.ray_x[i];
+  out.ray_y[to] = source.ray_y[i];
+  out.inverse_depth[to] = source.inverse_depth[i];
+  out.certainty[to] = source.certainty[i];
+  out.block[to] = source.block[i];
+  out.point[to] =
+      source.point != nullptr ? source.point[i] : source.first_point + static_cast<std::int32_t>(i);
+}
+
+template <class T>
+HWY_INLINE void copy_vector(const T* from, T* to) {
   const hn::CappedTag<T, kLanes> lanes;
-  const auto values = hn::LoadU(lanes, from);
-  // Storing a whole vector harms nothing: what lies behind is not read any more, or comes later. Storing
-  // parts of vectors is slow on some processors.
-  hn::StoreU(all ? values : hn::Compress(values, hn::RebindMask(lanes, mask)), lanes, to);
+  hn::StoreU(hn::LoadU(lanes, from), lanes, to);
+}
+
+void take_vector(const PoolSource& source, std::size_t i, std::size_t to, PlanePool& out) {
+  copy_vector(source.ray_x + i, out.ray_x.data() + to);
+  copy_vector(source.ray_y + i, out.ray_y.data() + to);
+  copy_vector(source.inverse_depth + i, out.inverse_depth.data() + to);
+  copy_vector(source.certainty + i, out.certainty.data() + to);
+  copy_vector(source.block + i, out.block.data() + to);
+  if (source.point != nullptr) {
+    copy_vector(source.point + i, out.point.data() + to);
+  } else {
+    const Integers integers;
+    hn::StoreU(hn::Iota(integers, source.first_point + static_cast<std::int32_t>(i)), integers,
+               out.point.data() + to);
+  }
 }
 
 /// Copies the wanted places of the source's arrays to the front of the pool's, which may be the same. Returns
-/// how many.
+/// how many. Mostly all places of a vector are wanted, or none.
 std::size_t take_wanted(const PoolSource& source, const std::uint8_t* marks, std::uint8_t wanted,
                         PlanePool& out) {
   const Integers integers;
@@ -142,34 +165,18 @@ std::size_t take_wanted(const PoolSource& source, const std::uint8_t* marks, std
   const std::size_t whole = source.size / kLanes * kLanes;
   for (std::size_t i = 0; i < whole; i += kLanes) {
     const auto mark = hn::PromoteTo(integers, hn::LoadU(bytes, marks + i));
-    const auto mask = hn::Eq(mark, hn::Set(integers, wanted));
-    const std::size_t count = hn::CountTrue(integers, mask);
-    if (count == 0) continue;
-    const bool all = count == kLanes;
-    take(source.ray_x + i, mask, all, out.ray_x.data() + end);
-    take(source.ray_y + i, mask, all, out.ray_y.data() + end);
-    take(source.inverse_depth + i, mask, all, out.inverse_depth.data() + end);
-    take(source.certainty + i, mask, all, out.certainty.data() + end);
-    take(source.block + i, mask, all, out.block.data() + end);
-    if (source.point != nullptr) {
-      take(source.point + i, mask, all, out.point.data() + end);
-    } else {
-      const auto numbers = hn::Iota(integers, source.first_point + static_cast<std::int32_t>(i));
-      hn::StoreU(all ? numbers : hn::Compress(numbers, mask), integers, out.point.data() + end);
+    std::array<std::uint8_t, 8> bits{};
+    hn::StoreMaskBits(integers, hn::Eq(mark, hn::Set(integers, wanted)), bits.data());
+    if (bits[0] == (1U << kLanes) - 1) {
+      take_vector(source, i, end, out);
+      end += kLanes;
+      continue;
     }
-    end += count;
+    for (unsigned left = bits[0]; left != 0; left &= left - 1)
+      take_one(source, i + static_cast<std::size_t>(std::countr_zero(left)), end++, out);
   }
-  for (std::size_t i = whole; i < source.size; ++i) {
-    if (marks[i] != wanted) continue;
-    out.ray_x[end] = source.ray_x[i];
-    out.ray_y[end] = source.ray_y[i];
-    out.inverse_depth[end] = source.inverse_depth[i];
-    out.certainty[end] = source.certainty[i];
-    out.block[end] = source.block[i];
-    out.point[end] =
-        source.point != nullptr ? source.point[i] : source.first_point + static_cast<std::int32_t>(i);
-    ++end;
-  }
+  for (std::size_t i = whole; i < source.size; ++i)
+    if (marks[i] == wanted) take_one(source, i, end++, out);
   return end;
 }
 
