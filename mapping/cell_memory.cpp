@@ -23,9 +23,11 @@ bool fits(const Level& level, const Surface& surface, const FusionLimits& limits
 
 void blend(Surface& memory, const Surface& view, float memory_var_m2) {
   const float gain = memory.var_m2 / (memory.var_m2 + view.var_m2);
+  const float above_m = (1.0F - gain) * memory.reach_m(1.0F) + gain * view.reach_m(1.0F);
   memory.z_m += gain * (view.z_m - memory.z_m);
   memory.gradient_x += gain * (view.gradient_x - memory.gradient_x);
   memory.gradient_y += gain * (view.gradient_y - memory.gradient_y);
+  memory.set_reach(above_m, 1.0F);
   memory.var_m2 = std::max((1.0F - gain) * memory.var_m2, memory_var_m2);
 }
 
@@ -36,6 +38,7 @@ void join(Level& level, Surface view, float memory_var_m2) {
   const Surface& plane = level.column ? view : level;
   column.gradient_x = plane.gradient_x;
   column.gradient_y = plane.gradient_y;
+  column.reach = 0;
   column.column = false;
   blend(level, view, memory_var_m2);
 }

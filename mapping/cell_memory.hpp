@@ -15,6 +15,29 @@ struct Surface {
   float gradient_x = 0;  ///< rise per metre along x
   float gradient_y = 0;  ///< rise per metre along y
   bool column = false;   ///< too steep to have one height, or points on no plane: z_m is the highest of them
+  /// Of a plane: how far up its slope it was seen in the cell, in thirds of the way from the cell's centre,
+  /// of which z_m is the height, to its highest corner; -kCorner..kCorner.
+  std::int8_t reach = 0;
+
+  static constexpr std::int32_t kCorner = 3;
+  /// Rise of what is carried on to where it was not seen. Steeper surfaces, 20 degrees, are no floor, and
+  /// those of small things far away are not well known.
+  static constexpr float kSteepestCarried = 0.36F;
+  /// How much higher than z_m its highest place that was seen lies, in a cell of this size.
+  [[nodiscard]] float reach_m(float pitch_m) const {
+    return column ? 0.0F : corner_m(pitch_m) * static_cast<float>(reach) / kCorner;
+  }
+  void set_reach(float above_m, float pitch_m) {
+    constexpr float kLevel = 1e-4F;
+    const float most_m = corner_m(pitch_m);
+    const bool is_level = column || most_m < kLevel * pitch_m;
+    const float share = is_level ? 0.0F : std::clamp(above_m / most_m, -1.0F, 1.0F);
+    reach = static_cast<std::int8_t>(std::lround(share * kCorner));
+  }
+  /// How much higher than its centre the highest corner of a cell lies.
+  [[nodiscard]] float corner_m(float pitch_m) const {
+    return 0.5F * pitch_m * (std::abs(gradient_x) + std::abs(gradient_y));
+  }
 };
 
 /// A surface in the memory of a cell. Support counts the points that speak for it, up to a limit; frames that
@@ -58,7 +81,7 @@ struct FusionLimits {
 /// highest one that the robot would hit (things on the floor, table tops). Those between are not kept.
 class CellMemory {
  public:
-  static constexpr std::int32_t kMostFloorDoubt = 31;
+  static constexpr std::int32_t kMostFloorDoubt = 15;
   static constexpr std::int32_t kOnEdge = 3;  ///< doubt from which on an edge goes through what was seen
 
   CellMemory() = default;

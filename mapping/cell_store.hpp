@@ -49,7 +49,7 @@ class CellStore {
  private:
   /// Low bits of a cell's word; above them is its lower level.
   static constexpr std::uint64_t kFloorDoubt = CellMemory::kMostFloorDoubt;
-  static constexpr std::uint64_t kMore = 32;
+  static constexpr std::uint64_t kMore = kFloorDoubt + 1;
   static_assert(kMore < 1U << PackedLevel::kFreeBits);
 
   /// Slots are told apart in groups of 256: of a tile whose vertices have one cell each eight rows. A group

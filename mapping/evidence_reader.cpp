@@ -69,6 +69,7 @@ void EvidenceReader::read(const CellEvidence& cell, const FloorEvidence& evidenc
     sightings.push_back(column);
     return;
   }
+  plane.set_reach(cell.top_z_m - cell.mean_z_m, static_cast<float>(evidence.lattice.pitch_m));
   plane.in_part = coverage != Coverage::kWhole;
   if (coverage != Coverage::kGlimpse) sightings.push_back(plane);
   if (!stands_out(cell, plane, evidence.lattice.pitch_m)) return;

@@ -11,6 +11,7 @@
 #include "mapping/floor_seeds.hpp"
 #include "mapping/published_vertex.hpp"
 #include "mapping/robot_limits.hpp"
+#include "mapping/told_height.hpp"
 
 namespace floornav {
 namespace {
@@ -74,8 +75,17 @@ bool MapJudge::take_summary(std::span<const CellMemory> cells, std::int32_t side
   vertex.set(Vertex::kDrivable, summary.seen && gentle && !summary.stepped && !summary.surface.column);
   vertex.set(Vertex::kFloorEnds, doubt >= (summary.seen ? CellMemory::kOnEdge : settings_.no_return_frames));
   if (!tile.surfaces.empty()) tile.surfaces[i] = summary.surface;
-  return vertex.flags != flags_before || tile.grid == nullptr ||
-         (summary.seen && differs_noticeably(summary.surface, slope_deg(summary.surface), *tile.grid, i));
+  if (vertex.flags != flags_before || tile.grid == nullptr) return true;
+  if (!summary.seen) return false;
+  const auto at = static_cast<std::int32_t>(i);
+  const VertexRef place{&tile, at % MapTile::kSide, at / MapTile::kSide};
+  return differs_noticeably(told(place), slope_deg(summary.surface), *tile.grid, i);
+}
+
+/// What is told of a vertex that was seen.
+Surface MapJudge::told(const VertexRef& place) const {
+  if (place.vertex().is(Vertex::kFree)) return place.surface();
+  return highest_place(place, rule_.resolution_m, rule_.max_step_m);
 }
 
 bool MapJudge::judge_vertex(const VertexRef& place, float floor_m) {
@@ -86,7 +96,9 @@ bool MapJudge::judge_vertex(const VertexRef& place, float floor_m) {
   if (!vertex.is(Vertex::kSeen)) {
     vertex.set(Vertex::kFree, false);
     const bool drop = vertex.is(Vertex::kFloorEnds) && FloorReach::beside_floor(place);
-    return publish_unseen(drop, floor_m, grid, i) || differs;
+    differs |= publish_unseen(drop, floor_m, grid, i);
+    heights_[i] = grid.height[i];
+    return differs;
   }
   const Surface surface = place.surface();
   const float slope = slope_deg(surface);
@@ -94,7 +106,9 @@ bool MapJudge::judge_vertex(const VertexRef& place, float floor_m) {
   const bool believed = belief_here >= min_belief_;
   vertex.set(Vertex::kFree, believed && vertex.is(Vertex::kDrivable) &&
                                 !vertex.is(Vertex::kCutOff | Vertex::kFloorEnds) && !is_rim(place, rule_));
-  return publish_seen(surface, slope, vertex.is(Vertex::kFree), belief_here, grid, i) || differs;
+  const Surface top = told(place);
+  heights_[i] = height_code(top, grid);
+  return publish_seen(top, slope, vertex.is(Vertex::kFree), belief_here, grid, i) || differs;
 }
 
 bool MapJudge::judge(MapTile& tile, const Pose& T_world_body) {
@@ -110,6 +124,7 @@ bool MapJudge::judge(MapTile& tile, const Pose& T_world_body) {
       differs |= judge_vertex(place, floor_heights_m_[place.index()]);
     }
   }
+  if (differs) tile.grid->height = heights_;
   return differs;
 }
 

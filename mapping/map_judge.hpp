@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -33,6 +34,7 @@ class MapJudge {
   /// Both: false where nothing that matters differs from before.
   bool summarise_touched(MapTile& tile, std::int32_t cells_per_vertex) const;
   bool take_summary(std::span<const CellMemory> cells, std::int32_t side, MapTile& tile, std::size_t i) const;
+  [[nodiscard]] Surface told(const VertexRef& place) const;
   bool judge(MapTile& tile, const Pose& T_world_body);
   bool judge_vertex(const VertexRef& place, float floor_m);
   static bool publish_edges(MapTile& tile);
@@ -44,6 +46,7 @@ class MapJudge {
   float min_belief_;  ///< section 4.6
   float max_rise_;    ///< rise per metre of the steepest floor that the robot drives
   std::vector<float> floor_heights_m_;
+  std::array<std::int16_t, GridTile::kVertices> heights_{};  ///< of a tile's vertices, as it is sent
 };
 
 }  // namespace floornav

@@ -8,15 +8,15 @@
 
 namespace floornav {
 
-/// A level in the upper 58 bits of a word, 0: none. Its height is told against a reference, in units of 15 um
-/// up to kMostHeight of them: what is farther is taken to be that far. Rises of planes are kept to 1/2048 up
-/// to 1, of columns to 1/32 up to 64, variances to 3 %.
+/// A level in the upper 59 bits of a word, 0: none. Its height is told against a reference, in units of 15 um
+/// up to kMostHeight of them: what is farther is taken to be that far. Rises of planes are kept to 1/1024 up
+/// to 1, of columns to 1/16 up to 64, variances to 3 %.
 class PackedLevel {
  public:
   static constexpr double kHeightUnits_per_m = 65536;
   static constexpr std::int32_t kMostHeight = (1 << 19) - 1;
   /// The bits below are somebody else's.
-  static constexpr int kFreeBits = 6;
+  static constexpr int kFreeBits = 5;
 
   constexpr explicit PackedLevel(std::uint64_t word) : word_(word) {}
   /// `reference`: in units of height.
@@ -27,7 +27,8 @@ class PackedLevel {
             field(rise_code(level.gradient_x, units), kRiseXBit, kRiseBits) |
             field(rise_code(level.gradient_y, units), kRiseYBit, kRiseBits) |
             field(variance_code(level.var_m2), kVarianceBit, kVarianceBits) |
-            field(level.support, kSupportBit, kSupportBits) | field(level.column ? 1 : 0, kColumnBit, 1);
+            field(level.support, kSupportBit, kSupportBits) | field(level.reach, kReachBit, kReachBits) |
+            field(level.column ? 1 : 0, kColumnBit, 1);
   }
 
   [[nodiscard]] std::uint64_t word() const { return word_; }
@@ -42,7 +43,8 @@ class PackedLevel {
             .var_m2 = std::bit_cast<float>(variance_bits << kDroppedBits),
             .gradient_x = unit * static_cast<float>(signed_at(kRiseXBit, kRiseBits)),
             .gradient_y = unit * static_cast<float>(signed_at(kRiseYBit, kRiseBits)),
-            .column = column};
+            .column = column,
+            .reach = static_cast<std::int8_t>(signed_at(kReachBit, kReachBits))};
   }
   [[nodiscard]] Level level(std::int64_t reference) const {
     if (support() == 0) return {};
@@ -52,19 +54,20 @@ class PackedLevel {
  private:
   /// Where the fields begin in the word, and the bits that each of them has.
   static constexpr int kColumnBit = kFreeBits;
-  static constexpr int kSupportBit = 7, kSupportBits = 4;
-  static constexpr int kVarianceBit = 11, kVarianceBits = 9;
-  static constexpr int kRiseYBit = 20, kRiseXBit = 32, kRiseBits = 12;
+  static constexpr int kSupportBit = 6, kSupportBits = 4;
+  static constexpr int kVarianceBit = 10, kVarianceBits = 9;
+  static constexpr int kReachBit = 19, kReachBits = 3;
+  static constexpr int kRiseYBit = 22, kRiseXBit = 33, kRiseBits = 11;
   static constexpr int kHeightBit = 44, kHeightBits = 20;
-  static_assert(Level::kMost < 1 << kSupportBits);
+  static_assert(Level::kMost < 1 << kSupportBits && Surface::kCorner < 1 << (kReachBits - 1));
 
-  static constexpr float kMostRise = 2047;
+  static constexpr float kMostRise = 1023;
   /// A variance keeps 4 bits of a float's mantissa, and of its exponents those from 2^-30 to 2^1.
   static constexpr int kDroppedBits = 19;
   static constexpr std::int32_t kLeastVariance = (127 - 30) << 4;
   static constexpr std::int32_t kMostVariance = (1 << kVarianceBits) - 1;
 
-  static constexpr float rise_units(bool column) { return column ? 32.0F : 2048.0F; }
+  static constexpr float rise_units(bool column) { return column ? 16.0F : 1024.0F; }
   static std::uint64_t field(std::int32_t value, int bit, int bits) {
     return (static_cast<std::uint64_t>(value) & ((1ULL << bits) - 1)) << bit;
   }

@@ -26,7 +26,7 @@ struct Counts {
   std::uint8_t slope;
 
   Counts(const Surface& surface, float slope_deg, const GridTile& tile)
-      : height(quantised<std::int16_t>(surface.z_m - tile.origin_z_m, GridTile::kHeightUnit_m)),
+      : height(height_code(surface, tile)),
         sigma(sigma_code(quantised<std::int16_t>(std::sqrt(surface.var_m2), GridTile::kHeightUnit_m))),
         slope(quantised<std::uint8_t>(slope_deg, GridTile::kSlopeUnit_deg)) {}
 
@@ -69,6 +69,10 @@ bool publish_seen(const Surface& surface, float slope_deg, bool free, float beli
   published.sigma[vertex] = counts.sigma;
   published.slope[vertex] = counts.slope;
   return true;
+}
+
+std::int16_t height_code(const Surface& surface, const GridTile& published) {
+  return quantised<std::int16_t>(surface.z_m - published.origin_z_m, GridTile::kHeightUnit_m);
 }
 
 bool publish_unseen(bool drop, float floor_m, GridTile& published, std::size_t vertex) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "mapping/cell_memory.hpp"
 #include "mapping/grid_map.hpp"
@@ -17,6 +18,8 @@ bool differs_noticeably(const Surface& surface, float slope_deg, const GridTile&
 /// A vertex that was seen:
 bool publish_seen(const Surface& surface, float slope_deg, bool free, float belief, GridTile& published,
                   std::size_t vertex);
+/// Its height as a tile that is sent anyway tells it, whether that is new or not.
+std::int16_t height_code(const Surface& surface, const GridTile& published);
 /// One that was never seen: unknown, or a drop beside the floor.
 bool publish_unseen(bool drop, float floor_m, GridTile& published, std::size_t vertex);
 /// The room below `overhead_z_m`, NaN: nothing above.

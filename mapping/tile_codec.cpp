@@ -22,6 +22,8 @@ constexpr std::uint8_t kUpper = 2;
 constexpr std::uint8_t kOverhead = 4;
 constexpr std::uint8_t kFloorDoubt = 8;
 constexpr std::uint8_t kColumn = 128;
+constexpr int kReachBit = 4;
+constexpr std::uint8_t kReach = 7 << kReachBit;
 
 std::int64_t units(double value, double unit) {
   return std::llround(value / unit);
@@ -57,7 +59,8 @@ std::int64_t read_difference(std::int64_t& before, std::int64_t most, ByteReader
 }
 
 void write_level(const Level& level, Previous& previous, ByteWriter& out) {
-  out.byte(static_cast<std::uint8_t>(level.support | (level.column ? kColumn : 0)));
+  const int reach = (level.reach << kReachBit) & kReach;
+  out.byte(static_cast<std::uint8_t>(level.support | reach | (level.column ? kColumn : 0)));
   out.byte(variance_code(level.var_m2));
   write_difference(units(level.z_m, kHeightUnit_m), previous.z, out);
   write_difference(units(level.gradient_x, kRiseUnit), previous.rise_x, out);
@@ -68,7 +71,8 @@ Level read_level(Previous& previous, ByteReader& in) {
   const std::uint8_t head = in.byte();
   Level level;
   level.column = (head & kColumn) != 0;
-  level.support = head & static_cast<std::uint8_t>(~kColumn);
+  level.reach = static_cast<std::int8_t>((((head & kReach) >> kReachBit) ^ 4) - 4);
+  level.support = head & static_cast<std::uint8_t>(~(kColumn | kReach));
   if (level.support == 0 || level.support > Level::kMost)
     throw std::invalid_argument("a support that cannot be");
   level.var_m2 = variance_of(in.byte());

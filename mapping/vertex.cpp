@@ -7,10 +7,6 @@
 namespace floornav {
 namespace {
 
-/// Steeper surfaces, 20 degrees, are no floor, and those of small things far away are not well known: their
-/// heights are not carried on to where they were not seen.
-constexpr float kSteepestCarried = 0.36F;
-
 /// From the centre of a cell to that of the square.
 struct WayToCenter {
   float x_m = 0, y_m = 0;
@@ -25,7 +21,7 @@ WayToCenter way_from(std::size_t index, std::int32_t side, float pitch_m) {
 /// How much higher a surface is that way on.
 float rise_m(const Surface& surface, const WayToCenter& way) {
   const float rise = std::hypot(surface.gradient_x, surface.gradient_y);
-  if (surface.column || rise > kSteepestCarried) return 0.0F;
+  if (surface.column || rise > Surface::kSteepestCarried) return 0.0F;
   return surface.gradient_x * way.x_m + surface.gradient_y * way.y_m;
 }
 
@@ -63,15 +59,27 @@ class MeanSurface {
   double gradient_x_ = 0, gradient_y_ = 0;
 };
 
-/// The highest surface. Its height is the mean of those that differ from it by no more than their noise and
-/// half a step: the highest of many heights alone is too high by their noise.
-Surface highest_of(std::span<const CellMemory> cells, const Surface& highest, float step_m) {
+/// The highest surface, with the height of its highest place that was seen: the mean of those that differ
+/// from it by no more than their noise and half a step, since the highest of many heights alone is too high
+/// by their noise.
+Surface highest_of(std::span<const CellMemory> cells, float pitch_m, float step_m) {
+  Surface highest;
+  bool found = false;
+  for (const CellMemory& cell : cells) {
+    const Surface* const surface = cell.decider();
+    if (surface == nullptr || (found && surface->z_m + surface->reach_m(pitch_m) <= highest.z_m)) continue;
+    highest = *surface;
+    highest.z_m = surface->z_m + surface->reach_m(pitch_m);
+    found = true;
+  }
   MeanSurface alike;
   for (const CellMemory& cell : cells) {
     const Surface* const surface = cell.decider();
     if (surface == nullptr) continue;
     const float noise_m = 3.0F * std::sqrt(surface->var_m2 + highest.var_m2);
-    if (highest.z_m - surface->z_m < std::min(noise_m, 0.5F * step_m)) alike.add(*surface, {});
+    Surface top = *surface;
+    top.z_m = surface->z_m + surface->reach_m(pitch_m);
+    if (highest.z_m - top.z_m < std::min(noise_m, 0.5F * step_m)) alike.add(top, {});
   }
   Surface result = highest;
   result.z_m = alike.z_m();
@@ -90,6 +98,7 @@ SquareSummary summarise(std::span<const CellMemory> cells, std::int32_t side, fl
   MeanSurface mean;
   const Surface* highest = nullptr;
   float highest_z_m = 0, lowest_z_m = 0, lowest_var_m2 = 0;  // at the centre
+  float most_z_m = 0;                                        // of all places that were seen
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Surface* const surface = cells[i].decider();
     if (surface == nullptr) continue;
@@ -104,6 +113,8 @@ SquareSummary summarise(std::span<const CellMemory> cells, std::int32_t side, fl
       highest_z_m = z_m;
       highest = surface;
     }
+    most_z_m = summary.seen ? std::max(most_z_m, surface->z_m + surface->reach_m(pitch_m))
+                            : surface->z_m + surface->reach_m(pitch_m);
     mean.add(*surface, way);
     summary.seen = true;
   }
@@ -111,7 +122,9 @@ SquareSummary summarise(std::span<const CellMemory> cells, std::int32_t side, fl
   const float noise_m = 3.0F * std::sqrt(highest->var_m2 + lowest_var_m2);
   summary.stepped = summary.stepped || highest_z_m - lowest_z_m > step_m + noise_m;
   summary.surface =
-      summary.stepped || !mean.has_planes() ? highest_of(cells, *highest, step_m) : mean.at_center();
+      summary.stepped || !mean.has_planes() ? highest_of(cells, pitch_m, step_m) : mean.at_center();
+  summary.surface.z_m = std::min(summary.surface.z_m, most_z_m);
+  summary.surface.reach = 0;
   return summary;
 }
 

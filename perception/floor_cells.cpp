@@ -23,6 +23,16 @@ float width_px(CellIndex cell, float z_m, const Lattice& lattice, const SensorVi
   return view.camera.fx * static_cast<float>(lattice.pitch_m / std::max(depth_m, kLeastDepth_m));
 }
 
+/// Of a plane that has a height of its own at a place: that of the cell's middle, wherever its points lie.
+void take_middle(const FloorEvidence& evidence, float rise_m, CellEvidence& cell) {
+  const Surfel& plane = evidence.surfels[static_cast<std::size_t>(cell.surfel)];
+  if (plane.normal.z() <= kLevelUpright) return;
+  const Eigen::Vector2d way(evidence.lattice.center_of(cell.cell.ix) - plane.centroid_m.x(),
+                            evidence.lattice.center_of(cell.cell.iy) - plane.centroid_m.y());
+  const double up_m = -plane.normal.head<2>().cast<double>().dot(way) / static_cast<double>(plane.normal.z());
+  cell.mean_z_m = static_cast<float>(plane.centroid_m.z() + up_m) + rise_m;
+}
+
 }  // namespace
 
 FloorCells::FloorCells(const PerceptionSettings& settings, const RobotSettings& robot,
@@ -139,6 +149,7 @@ void FloorCells::summarize_one(std::size_t seen, const SensorView& view, float a
   const float rise_m =
       deciders_[seen].surfel < 0 ? 0.0F : significant_rise(rises_, window_, number, significance, noise);
   summarize_cell(points, deciders_[seen], rise_m, scratch, cell);
+  if (cell.surfel >= 0) take_middle(evidence, rise_m, cell);
   cell.on_edge = is_on_edge(number, cell, evidence.surfels);
 }
 

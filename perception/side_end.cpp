@@ -1,8 +1,8 @@
 #include "perception/side_end.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include "perception/uprightness.hpp"
 
@@ -15,11 +15,10 @@ constexpr float kRowsAbove = 4.0F;
 constexpr float kRowsBelow = 2.0F;      ///< beyond where the end is sought
 constexpr float kMostRowsDown = 40.0F;  ///< of where it is sought
 constexpr std::size_t kLeastPixels = 6;
-constexpr int kSteps = 40;   ///< of the search
-constexpr int kStepsUp = 5;  ///< above the highest point
+constexpr std::size_t kSteps = 30;  ///< of the search
 constexpr float kMost =
     9.0F;  ///< that a pixel costs, in its variance: what is not of this thing tells nothing
-constexpr float kAlike = 1e-3F;
+constexpr float kMostBehind = 4.0F;
 
 /// The pixels around the end.
 struct Window {
@@ -72,31 +71,34 @@ void find_pixels(const Surfel& side, const Window& window, const MeasuredImage& 
   }
 }
 
-/// How badly a top explains the pixels that lies so far below the sensor.
+/// How badly a top explains the pixels that lies so far below the sensor. A ray that passes over the edge may
+/// go on behind a top that falls away or soon ends: farther off is no surprise there.
 float cost_of(const std::vector<EndPixel>& pixels, float below_sensor_m) {
+  const float per_below = 1.0F / below_sensor_m;
   float sum = 0.0F;
   for (const EndPixel& p : pixels) {
-    const float expected = std::min(p.on_side, p.down / below_sensor_m);
-    const float off = (p.inverse_depth - expected) * p.certainty;
-    sum += std::min(off * off, kMost);
+    const float on_top = p.down * per_below;
+    const float off = (p.inverse_depth - std::min(p.on_side, on_top)) * p.certainty;
+    sum += std::min(off * off, on_top < p.on_side && off < 0.0F ? kMostBehind : kMost);
   }
   return sum;
 }
 
-/// How far below the highest point the side ends. Where there is no top behind it, all heights from its last
-/// row up explain the pixels alike: half a row more than the last one.
-float find_end(const std::vector<EndPixel>& pixels, const SideEnd& end, float sensor_above_m, float row_m) {
-  float least = std::numeric_limits<float>::infinity();
-  float highest_m = 0.0F, lowest_m = 0.0F;
-  for (int step = -kStepsUp; step <= kSteps; ++step) {
-    const float below_m = end.below_m * static_cast<float>(step) / static_cast<float>(kSteps);
-    const float cost = cost_of(pixels, sensor_above_m + below_m);
-    if (cost >= least + kAlike) continue;
-    if (cost < least - kAlike) highest_m = below_m;
-    lowest_m = below_m;
-    least = std::min(least, cost);
+/// How far below the highest point the side ends: the mean of all ends that may be, each as likely as its
+/// cost says.
+float find_end(const std::vector<EndPixel>& pixels, const SideEnd& end, float sensor_above_m, float up_m) {
+  std::array<float, kSteps + 1> costs;
+  const float step_m = (end.below_m + up_m) / kSteps;
+  for (std::size_t i = 0; i < costs.size(); ++i)
+    costs[i] = cost_of(pixels, sensor_above_m - up_m + static_cast<float>(i) * step_m);
+  const float least = *std::min_element(costs.begin(), costs.end());
+  float weights = 0.0F, sum = 0.0F;
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    const float weight = std::exp(-0.5F * (costs[i] - least));
+    weights += weight;
+    sum += weight * static_cast<float>(i);
   }
-  return 0.5F * (lowest_m + std::max(highest_m, lowest_m - row_m));
+  return sum / weights * step_m - up_m;
 }
 
 }  // namespace
@@ -104,13 +106,13 @@ float find_end(const std::vector<EndPixel>& pixels, const SideEnd& end, float se
 std::optional<float> side_end_z_m(const Surfel& side, const SideEnd& end, const MeasuredImage& image,
                                   const SensorView& view, std::vector<EndPixel>& pixels) {
   const double sensor_above_m = view.T_world_sensor.translation().z() - static_cast<double>(end.top_z_m);
-  const double search_up_m = static_cast<double>(end.below_m) * kStepsUp / kSteps;
-  if (std::abs(side.normal.z()) > kSideUpright || sensor_above_m - search_up_m < kLeastBelowSensor_m)
-    return std::nullopt;
+  if (std::abs(side.normal.z()) > kSideUpright) return std::nullopt;
   const Window window(side, end, view);
+  const float up_m = std::max(window.row_m, end.below_m / 8.0F);
+  if (sensor_above_m - static_cast<double>(up_m) < kLeastBelowSensor_m) return std::nullopt;
   find_pixels(side, window, image, view, pixels);
   if (pixels.size() < kLeastPixels) return std::nullopt;
-  return end.top_z_m - find_end(pixels, end, static_cast<float>(sensor_above_m), window.row_m);
+  return end.top_z_m - find_end(pixels, end, static_cast<float>(sensor_above_m), up_m);
 }
 
 }  // namespace floornav
