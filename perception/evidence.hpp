@@ -29,9 +29,11 @@ struct CellEvidence {
   CellIndex cell;
   std::int16_t surfel = -1;  ///< index into FloorEvidence::surfels; -1: none of its points is on a surfel
   std::int32_t points = 0;   ///< 0: only sight lines
+  /// Of what decides the cell: of a plane flatter than 30 degrees the height in the cell's middle, of others
+  /// the mean of its points.
   float mean_z_m = std::numeric_limits<float>::quiet_NaN();
   float var_z_m2 = std::numeric_limits<float>::quiet_NaN();  ///< variance of mean_z_m by eq. (3) / (4)
-  float top_z_m = std::numeric_limits<float>::quiet_NaN();   ///< robust highest point
+  float top_z_m = std::numeric_limits<float>::quiet_NaN();   ///< robust highest place that was seen
   float ray_z_m = std::numeric_limits<float>::quiet_NaN();   ///< lowest height at which a ray passed through
   bool no_return = false;      ///< rays should have ended on a floor here and brought nothing back
   bool partly_hidden = false;  ///< the outline of something nearer goes through the cell

@@ -61,6 +61,31 @@ TEST_P(Fusion, IsTheMeanWeightedByVariance) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Fusion, testing::Range(1U, 11U));
 
+/// Views of a top, each seen as far up as it was: what they saw of it is averaged like its height.
+TEST(CellMemory, HighestPlaceOfASlopeIsTheMeanOfThoseThatWereSeen) {
+  CellMemory memory;
+  for (const int reach : {3, 1, 2}) {
+    Sighting sighting = plane(0.3F);
+    sighting.gradient_x = 0.2F;
+    sighting.reach = static_cast<std::int8_t>(reach);
+    fuse(memory, {sighting});
+  }
+  ASSERT_NE(memory.decider(), nullptr);
+  EXPECT_NEAR(memory.decider()->reach_m(0.05F), 0.005F * 2 / 3, 1e-6F);
+}
+
+/// Noise in the slope of what is level does not make it higher.
+TEST(CellMemory, HighestPlaceOfWhatIsLevelIsItsHeight) {
+  CellMemory memory;
+  for (const float rise : {0.2F, -0.2F}) {
+    Sighting sighting = plane(0.3F);
+    sighting.gradient_x = rise;
+    sighting.reach = Surface::kCorner;
+    fuse(memory, {sighting});
+  }
+  EXPECT_NEAR(memory.decider()->reach_m(0.05F), 0.0F, 1e-5F);
+}
+
 TEST(CellMemory, VarianceHasAFloorSoThatTheHeightStillFollows) {
   CellMemory memory;
   FusionLimits limits = kLimits;

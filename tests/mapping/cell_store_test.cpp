@@ -24,6 +24,7 @@ Level random_level(std::mt19937& random, float around_m) {
   level.gradient_x = (level.column ? 60.0F : 0.99F) * part(random);
   level.gradient_y = (level.column ? 60.0F : 0.99F) * part(random);
   level.support = static_cast<std::uint8_t>(1 + random() % Level::kMost);
+  level.reach = static_cast<std::int8_t>(static_cast<int>(random() % 7) - Surface::kCorner);
   return level;
 }
 
@@ -40,9 +41,10 @@ void expect_near(const Level& stored, const Level& level) {
   if (!level.exists()) return;
   ASSERT_EQ(stored.column, level.column);
   ASSERT_NEAR(stored.z_m, level.z_m, 20e-6);
-  ASSERT_NEAR(stored.gradient_x, level.gradient_x, level.column ? 1.01 / 64 : 1.01 / 4096);
-  ASSERT_NEAR(stored.gradient_y, level.gradient_y, level.column ? 1.01 / 64 : 1.01 / 4096);
+  ASSERT_NEAR(stored.gradient_x, level.gradient_x, level.column ? 1.01 / 32 : 1.01 / 2048);
+  ASSERT_NEAR(stored.gradient_y, level.gradient_y, level.column ? 1.01 / 32 : 1.01 / 2048);
   ASSERT_NEAR(stored.var_m2 / level.var_m2, 1, 0.032);
+  ASSERT_EQ(stored.reach, level.reach);
 }
 
 void expect_near(const CellMemory& stored, const CellMemory& memory) {

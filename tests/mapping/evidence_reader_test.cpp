@@ -56,6 +56,20 @@ TEST(EvidenceReader, FarNoiseDoesNotStandOut) {
   EXPECT_EQ(sightings_of(floor_with(0.048F, 10, 0.02F)).size(), 1U);
 }
 
+/// A top that rises by 0.4 along x: its cell's corner is 1 cm above its middle.
+TEST(EvidenceReader, ToldIsHowFarUpItsSlopeAPlaneWasSeen) {
+  FloorEvidence evidence = floor_with(0.0F, 10, 0.002F);
+  evidence.surfels[0].normal = Eigen::Vector3f(-0.4F, 0.0F, 1.0F).normalized();
+  for (const int thirds : {-3, -1, 0, 2, 3}) {
+    evidence.cells[0].top_z_m = 0.01F * static_cast<float>(thirds) / 3.0F;
+    EXPECT_EQ(sightings_of(evidence).at(0).reach, thirds);
+  }
+  evidence.cells[0].top_z_m = 0.02F;
+  EXPECT_EQ(sightings_of(evidence).at(0).reach, Surface::kCorner);
+  evidence.surfels[0].normal = Eigen::Vector3f::UnitZ();
+  EXPECT_EQ(sightings_of(evidence).at(0).reach, 0);
+}
+
 /// However uncertain the body's height is: both were seen from the same place.
 TEST(EvidenceReader, WhatStandsOutOfAPlaneIsNotPartOfIt) {
   const auto sightings = sightings_of(floor_with(0.035F, 500, 0.002F));

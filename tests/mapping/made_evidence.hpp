@@ -27,7 +27,7 @@ struct Area {
   double y_max_m = 1;
 };
 
-/// The evidence of a sensor without error: every cell of the area, at its centre, one surfel a cell.
+/// The evidence of a sensor without error: every cell of the area, seen whole, one surfel a cell.
 inline FloorEvidence see(const Scene& scene, const Area& area = {}, double pitch_m = 0.05,
                          float sigma_m = 0.002F) {
   FloorEvidence evidence;
@@ -52,7 +52,8 @@ inline FloorEvidence see(const Scene& scene, const Area& area = {}, double pitch
       cell.surfel = static_cast<std::int16_t>(evidence.surfels.size());
       cell.points = 10;
       cell.mean_z_m = static_cast<float>(ground->z_m);
-      cell.top_z_m = cell.mean_z_m;
+      const double corner_m = 0.5 * pitch_m * (std::abs(ground->rise_x) + std::abs(ground->rise_y));
+      cell.top_z_m = static_cast<float>(ground->z_m + corner_m);
       cell.var_z_m2 = sigma_m * sigma_m;
       evidence.surfels.push_back(surfel);
       evidence.cells.push_back(cell);

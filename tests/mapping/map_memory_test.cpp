@@ -49,6 +49,7 @@ Level random_level(std::mt19937& random) {
   level.gradient_y = 0.1F * z(random);
   level.column = random() % 4 == 0;
   level.support = static_cast<std::uint8_t>(1 + random() % Level::kMost);
+  level.reach = static_cast<std::int8_t>(static_cast<int>(random() % 7) - Surface::kCorner);
   return level;
 }
 
@@ -79,6 +80,7 @@ TEST_P(RandomTiles, ComeBackToWithinTheUnitsOfThePackingAndPackTheSameAgain) {
       const Level& after = (cell_after.*level)();
       ASSERT_EQ(after.support, before.support);
       ASSERT_EQ(after.column, before.column);
+      ASSERT_EQ(after.reach, before.reach);
       ASSERT_NEAR(after.z_m, before.z_m, 0.51e-4);
       ASSERT_NEAR(after.gradient_x, before.gradient_x, 0.51 / 1024);  // the store's own units are finer
       ASSERT_NEAR(after.gradient_y, before.gradient_y, 0.51 / 1024);

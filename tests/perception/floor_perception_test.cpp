@@ -176,6 +176,26 @@ TEST(FloorPerception, ARampIsFoundWithItsSlope) {
   EXPECT_GE(floors, 9);
 }
 
+/// A wall hides the farther part of some cells: their heights are those of their middles all the same.
+TEST(FloorPerception, ACellOfARampHasTheHeightOfItsMiddleHoweverLittleOfItIsSeen) {
+  RenderedScene scene = small_scene();
+  scene.T_world_body.translation() = Eigen::Vector3d::Zero();
+  scene.floor_slope = std::tan(8.0 * std::numbers::pi / 180.0);
+  scene.noise_px = 0.005;
+  scene.boxes.push_back({{1.52, -0.3, 0.0}, {1.6, 0.3, 0.7}});
+  const FloorEvidence evidence = perceive(scene);
+  int cells = 0, in_part = 0;
+  for (const CellEvidence& cell : evidence.cells) {
+    if (cell.surfel < 0 || !evidence.surfels[static_cast<std::size_t>(cell.surfel)].dominant) continue;
+    const double x_m = evidence.lattice.center_of(cell.cell.ix);
+    EXPECT_NEAR(cell.mean_z_m, scene.floor_slope * x_m, 0.002) << x_m;
+    ++cells;
+    in_part += cell.partly_hidden ? 1 : 0;
+  }
+  EXPECT_GT(cells, 500);
+  EXPECT_GT(in_part, 5);
+}
+
 TEST(FloorPerception, AHoleThatReturnsNothingIsExpectedFloorWithoutReturn) {
   RenderedScene scene = small_scene();
   const Eigen::Vector3d body = scene.T_world_body.translation();

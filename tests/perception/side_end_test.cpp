@@ -106,6 +106,21 @@ TEST_P(SideEndTest, IsWithinARowOfTheEndOfAWall) {
   EXPECT_NEAR(*end, scene.height_m, 0.5 * row_m + 0.001);
 }
 
+/// Over many heights between two rows, with noise on the last of them.
+TEST_P(SideEndTest, OfAWallIsWithinAThirdOfARowInTheMean) {
+  scene.length_m = 0.0;
+  const double row_m = 1.1 * scene.distance_m / 575.0;
+  double sum_m = 0;
+  int cells = 0;
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    scene.height_m = 0.2 + 0.25 * seed * row_m;
+    const MeasuredImage image = scene.seen(view, seed + 1, kSigma_per_m);
+    for (double y_m = -0.5; y_m <= 0.5; y_m += 0.05, ++cells)
+      sum_m += static_cast<double>(scene.found(view, image, y_m, 0.0).value_or(0.0F)) - scene.height_m;
+  }
+  EXPECT_NEAR(sum_m / cells, 0.0, 0.3 * row_m);
+}
+
 INSTANTIATE_TEST_SUITE_P(Distances, SideEndTest, testing::Values(1.6, 2.5, 3.3, 4.0, 4.7, 5.3));
 
 TEST(SideEnd, IsNothingAboveTheSensorOutsideTheImageOrOnASlope) {
