@@ -32,6 +32,7 @@ function(floornav_test name)
   cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LINK" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # a test is compiled more often than run
+  target_precompile_headers(test_${name} REUSE_FROM floornav_test_headers)
   target_link_libraries(test_${name} PRIVATE floornav_options ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST
     PROPERTIES TIMEOUT 300 LABELS "${ARG_LABEL}")
