@@ -185,7 +185,7 @@ void CellMemory::see_through_top() {
   weaken(upper_, 1);
 }
 
-void CellMemory::doubt_floor(const CellView& view, bool was_known) {
+void CellMemory::update_floor_doubt(const CellView& view, bool was_known) {
   constexpr std::int32_t kMostOfKnown = 2 * kOnEdge;
   std::int32_t doubt = floor_doubt_;
   if (view.sightings.empty()) {
@@ -207,7 +207,7 @@ bool CellMemory::fuse(const CellView& view, const FusionLimits& limits) {
   }
   const bool doubted = forget_unseen(view, limits, seen) | doubt_unsettled_floor(view, seen);
   merge(limits);
-  doubt_floor(view, was_known);
+  update_floor_doubt(view, was_known);
   return doubted || view.no_return || !view.sightings.empty();
 }
 

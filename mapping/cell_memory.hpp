@@ -135,7 +135,8 @@ class CellMemory {
   /// A floor of which as many frames saw a part as saw it whole is not known.
   bool doubt_unsettled_floor(const CellView& view, Seen seen);
   void merge(const FusionLimits& limits);
-  void doubt_floor(const CellView& view, bool was_known);
+  /// See floor_doubt(). `was_known`: before this view.
+  void update_floor_doubt(const CellView& view, bool was_known);
 
   Level lower_;
   Level upper_;

@@ -6,13 +6,9 @@
 
 #include "mapping/belief.hpp"
 #include "runtime/geometry/robot.hpp"
+#include "runtime/geometry/step_limit.hpp"
 
 namespace floornav {
-
-/// T of eq. (2), m: what the wheels take and the chassis clears.
-inline double step_limit_m(const RobotSettings& robot) {
-  return std::min(robot.max_step_m, robot.ground_clearance_m);
-}
 
 /// Rise per metre of the steepest floor: what the robot drives, and on which it does not tip over sideways in
 /// its quickest turn. On a slope it tips where height x (rise + v w / g) exceeds half the track.

@@ -20,10 +20,10 @@ namespace floornav {
 /// map.
 ///
 /// A vertex is *blocked* where what decides in it - the highest surface below the robot's clearance - is no
-/// plane, is steeper than the robot drives, has a belief under what its robot asks for, or is cut off from
-/// the robot's floor by eq. (2); so is a place beside the floor where rays should have found a floor and
-/// brought nothing back. The rest of what was seen is *free*; what was never seen is *unknown*. The robot's
-/// floor is what open edges join to the level ground near the robot.
+/// plane, is steeper than the robot drives, has a belief under what its robot asks for, has an edge going
+/// through it, or is cut off from the robot's floor by eq. (2); so is a place beside the floor where rays
+/// should have found a floor and brought nothing back. The rest of what was seen is *free*; what was never
+/// seen is *unknown*. The robot's floor is what open edges join to the level ground near the robot.
 ///
 /// The result depends on the evidence and its order alone. The cost of an update follows the tiles with new
 /// evidence. What lies farther from the robot than it can see is kept packed until it comes back.

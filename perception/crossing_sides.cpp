@@ -9,9 +9,8 @@ namespace floornav {
 
 namespace {
 
-constexpr std::int16_t kLeastPoints = 3;
-constexpr float kTouch_m = 0.05F;           // what is no farther from a plane may reach to it
-constexpr std::int16_t kMostPoints = 1000;  // that are counted
+constexpr std::int32_t kLeastPoints = 3;
+constexpr float kTouch_m = 0.05F;  // what is no farther from a plane may reach to it
 
 /// Whether a side's plane cuts the square of a cell at a height.
 bool cuts(const Surfel& side, const Eigen::Vector2d& middle, float z_m, double pitch_m) {
@@ -34,7 +33,7 @@ void CrossingSides::note(std::int32_t cell, std::span<const CellPoint> points,
       if (here.points > most.points) most = here;
       here = {p.surfel, 0, p.z_m, p.z_m};
     }
-    here.points = std::min<std::int16_t>(kMostPoints, static_cast<std::int16_t>(here.points + 1));
+    ++here.points;
     here.lowest_z_m = std::min(here.lowest_z_m, p.z_m);
     here.highest_z_m = std::max(here.highest_z_m, p.z_m);
   }

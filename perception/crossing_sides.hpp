@@ -30,12 +30,12 @@ class CrossingSides {
   /// Of a cell's points, those on a side.
   struct Side {
     std::int16_t surfel = -1;  ///< index into FloorEvidence::surfels
-    std::int16_t points = 0;
+    std::int32_t points = 0;
     float lowest_z_m = 0, highest_z_m = 0;
   };
 
   float least_height_m_;
-  std::vector<Side> sides_;  ///< a cell: the side with the most points
+  std::vector<Side> sides_;  ///< a cell: the side on which the most points in a row lie
 };
 
 }  // namespace floornav

@@ -7,6 +7,7 @@
 #include "perception/side_end.hpp"
 #include "perception/top_edge.hpp"
 #include "perception/uprightness.hpp"
+#include "runtime/geometry/step_limit.hpp"
 
 namespace floornav {
 
@@ -40,12 +41,12 @@ FloorCells::FloorCells(const PerceptionSettings& settings, const RobotSettings& 
     : roi_(settings.roi),
       settings_(settings.cells),
       grid_(grid),
-      max_step_m_(static_cast<float>(robot.max_step_m)),
+      max_step_m_(static_cast<float>(step_limit_m(robot))),
       sorter_(settings.roi),
       tracer_(settings.roi, settings.cells),
       missing_floor_finder_(settings.roi, grid),
-      outline_finder_(robot.max_step_m),
-      crossing_sides_(robot.max_step_m) {}
+      outline_finder_(step_limit_m(robot)),
+      crossing_sides_(step_limit_m(robot)) {}
 
 void FloorCells::begin(const MeasuredImage& image, const RoiCloud& cloud, const SensorView& view,
                        Parallel& parallel) {

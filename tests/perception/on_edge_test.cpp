@@ -36,11 +36,11 @@ double share_inside(const Eigen::Vector2d& middle, double pitch_m, const Eigen::
 }
 
 /// The robot is told to be turned, so that the cells lie across the scene.
-Told look(RenderedScene& scene, double turn_deg) {
+Told look(RenderedScene& scene, double turn_deg, const RobotSettings& robot = {}) {
   scene.mount(0.9, 25.0);
   const Eigen::AngleAxisd turn(turn_deg * std::numbers::pi / 180, Eigen::Vector3d::UnitZ());
   Serial serial;
-  FloorPerception perception({}, {});
+  FloorPerception perception({}, robot);
   const FloorEvidence& evidence =
       perception.process(scene.render(), Pose(turn), serial, [](std::int64_t) { return true; });
   Told told;
@@ -89,6 +89,15 @@ TEST_P(OnEdge, IsFloorOfWhichAPartIsMissing) {
   scene_.hole = over_rectangle(0.0, 0.0);
   scene_.boxes.push_back({{-5, -5, -0.4}, {5, 5, -0.3}});
   expect_edges_alone(look());
+}
+
+TEST_P(OnEdge, IsADropThatTheWheelsTakeAndTheChassisDoesNotClear) {
+  RobotSettings robot;
+  robot.max_step_m = 0.5;
+  robot.ground_clearance_m = 0.02;
+  scene_.hole = over_rectangle(0.0, 0.0);
+  scene_.boxes.push_back({{-5, -5, -0.4}, {5, 5, -0.3}});
+  expect_edges_alone(floornav::look(scene_, std::get<0>(GetParam()), robot));
 }
 
 TEST_P(OnEdge, IsNotTheFloorBeforeALowStepThatTheRobotClimbs) {
