@@ -5,6 +5,7 @@
 
 #include "perception/plane_kernel.hpp"
 #include "perception/pool_kernel.hpp"
+#include "perception/uprightness.hpp"
 
 namespace floornav {
 
@@ -34,6 +35,7 @@ struct SectionPlaneFinder::Search {
   SectionScratch& scratch;
   Random random;
   std::vector<SectionPlane>& planes;
+  const Eigen::Vector3f up = view.T_world_sensor.linear().row(2).transpose().cast<float>();  ///< sensor frame
 
   [[nodiscard]] float threshold() const { return static_cast<float>(finder.settings_.threshold_sigmas); }
 
@@ -64,8 +66,13 @@ struct SectionPlaneFinder::Search {
   /// obstacles between them; any other plane is one patch.
   int claim_points(const PlanePool& pool, const InverseDepthPlane& plane, bool is_floor) {
     scratch.distance.resize(pool.size());
-    scratch.claims.resize(pool.size());
     find_distances(pool, plane, parallel, scratch.distance);
+    return claim_near(pool, is_floor);
+  }
+
+  /// The same by the distances alone.
+  int claim_near(const PlanePool& pool, bool is_floor) {
+    scratch.claims.resize(pool.size());
     scratch.blocks.count(pool, scratch.distance, threshold());
     if (!is_floor) scratch.blocks.keep_largest_patch();
     scratch.blocks.judge();
@@ -79,31 +86,71 @@ struct SectionPlaneFinder::Search {
     scratch.weights.resize(pool.size());
     for (std::size_t i = 0; i < pool.size(); ++i)
       scratch.weights[i] = scratch.claims[i] == Claim::kPoint ? 1.0F : 0.0F;
+    const float upright = up.dot(found.normal());
+    if (!is_floor && upright > kSideUpright)
+      scratch.lower_border.leave_out(pool, cloud, view.camera, found, threshold(), scratch.weights);
     const PlaneFit fit =
         fit_inliers(pool, found, threshold(), scratch.weights, parallel, scratch.ransac.parts);
     const auto free = fit.solve();
     if (!free) return std::nullopt;
-    const SectionPlane settled{*free, fit, is_floor};
-    if (is_floor || planes.empty() || !planes.front().dominant) return settled;
-    const InverseDepthPlane parallel = fit.solve_parallel(planes.front().plane);
-    return fit.cost(parallel) - fit.cost(*free) < kParallelCost ? SectionPlane{parallel, fit, false}
-                                                                : settled;
+    return SectionPlane{is_floor ? *free : parallel_unless_denied(*free, fit), fit, is_floor};
+  }
+
+  /// The plane parallel to the floor that fits best, unless that fits much worse than `free`.
+  [[nodiscard]] InverseDepthPlane parallel_unless_denied(const InverseDepthPlane& free,
+                                                         const PlaneFit& fit) const {
+    if (planes.empty() || !planes.front().dominant) return free;
+    const InverseDepthPlane parallel_plane = fit.solve_parallel(planes.front().plane);
+    return fit.cost(parallel_plane) - fit.cost(free) < kParallelCost ? parallel_plane : free;
   }
 
   /// Labels the plane's points and takes them, and the noise around them, out of the pool. False, and nothing
   /// is done, where they are too few.
   bool claim(const SectionPlane& settled) {
-    PlanePool& pool = scratch.pool;
+    const PlanePool& pool = scratch.pool;
     if (claim_points(pool, settled.plane, settled.dominant) < finder.settings_.min_points) return false;
-    const auto index = static_cast<std::int16_t>(planes.size());
+    const bool has_room_for_two = static_cast<int>(planes.size()) < finder.settings_.max_planes;
+    if (!settled.dominant && has_room_for_two) {
+      const auto pair = scratch.splitter.split(pool, scratch.claims, scratch.distance, threshold());
+      if (pair && claim(*pair)) return true;
+      if (pair) claim_points(pool, settled.plane, false);
+    }
+    label_claimed([](std::size_t) { return 0; });
+    planes.push_back(settled);
+    return true;
+  }
+
+  /// Labels what is claimed and takes it out of the pool; `number`: which of the planes to come a point is
+  /// on.
+  template <class Number>
+  void label_claimed(const Number& number) {
+    PlanePool& pool = scratch.pool;
     for (std::size_t i = 0; i < pool.size(); ++i) {
       if (scratch.claims[i] == Claim::kNone) continue;
+      const auto index = static_cast<std::int16_t>(static_cast<int>(planes.size()) + number(i));
       label[static_cast<std::size_t>(pool.point[i])] =
           scratch.claims[i] == Claim::kPoint ? index : kPlaneNoise;
     }
     take_points(source_of(pool), scratch.claims, Claim::kNone, pool);
-    planes.push_back(settled);
+  }
+
+  /// The same for the two planes between which the one in hand is a compromise.
+  bool claim(const PlanePair& split) {
+    const PlanePool& pool = scratch.pool;
+    if (!claim_points(split)) return false;
+    auto pair = scratch.splitter.refit(pool, scratch.claims, split, threshold());
+    if (!pair) return false;
+    for (std::size_t k = 0; k < 2; ++k)
+      pair->planes[k] = parallel_unless_denied(pair->planes[k], pair->fits[k]);
+    if (!claim_points(*pair) || !PlaneSplitter::both_own_points(pool, scratch.claims, *pair)) return false;
+    label_claimed([&](std::size_t i) { return pair->meets_first(pool.ray_x[i], pool.ray_y[i]) ? 0 : 1; });
+    for (std::size_t k = 0; k < 2; ++k) planes.push_back({pair->planes[k], pair->fits[k], false});
     return true;
+  }
+  bool claim_points(const PlanePair& pair) {
+    const PlanePool& pool = scratch.pool;
+    for (std::size_t i = 0; i < pool.size(); ++i) scratch.distance[i] = pair.distance(pool, i);
+    return claim_near(pool, false) >= finder.settings_.min_points;
   }
 
   /// Inliers of a plane that does not own enough of them stay without a plane.
@@ -137,6 +184,7 @@ struct SectionPlaneFinder::Search {
     query.max_hypotheses = finder.settings_.max_hypotheses;
     if (!planes.empty()) query.expected_normal = planes.front().plane.normal();
     for (int pass = 0; pass < finder.settings_.max_planes; ++pass) {
+      if (static_cast<int>(planes.size()) > finder.settings_.max_planes) return;
       if (static_cast<int>(scratch.pool.size()) < finder.settings_.min_points) return;
       const auto found = find_plane(scratch.pool, query, random, parallel, scratch.ransac);
       if (!found) return;

@@ -6,8 +6,10 @@
 
 #include <Eigen/Core>
 
+#include "perception/lower_border.hpp"
 #include "perception/pixel_blocks.hpp"
 #include "perception/plane_pool.hpp"
+#include "perception/plane_splitter.hpp"
 #include "perception/pool_kernel.hpp"
 #include "perception/ransac.hpp"
 #include "perception/reach.hpp"
@@ -34,6 +36,8 @@ struct SectionScratch {
   PlanePool floor_pool;
   RansacScratch ransac;
   PixelBlocks blocks;
+  PlaneSplitter splitter;
+  LowerBorder lower_border;
   // Of each point of the pool, and of the plane in hand:
   std::vector<float> distance;  ///< off the plane, in sigmas
   std::vector<Claim> claims;
