@@ -84,6 +84,18 @@ std::int32_t doubt(const Level& level, const CellView& view, const FusionLimits&
   return doubt;
 }
 
+/// The points of a sighting that count, where more than one frame is to tell.
+std::int32_t counting_points(const Sighting& sighting, const Level& lower, const Level& upper,
+                             const FusionLimits& limits) {
+  if (!lower.trusted()) return sighting.points;
+  if (sighting.column && !lower.column) return sighting.points < kSurePoints ? 1 : sighting.points;
+  const bool is_floor_alone = !lower.column && !upper.trusted();
+  if (is_floor_alone) return sighting.points;
+  const bool raises =
+      sighting.z_m > lower.z_m && !fits(lower, sighting, limits) && !fits(upper, sighting, limits);
+  return raises ? std::min(sighting.points, Level::kTrusted - 1) : sighting.points;
+}
+
 void weaken(Level& level, std::int32_t doubt) {
   level.support = static_cast<std::uint8_t>(std::max(0, level.support - doubt));
 }
@@ -119,8 +131,10 @@ Level* CellMemory::level_of(const Sighting& sighting, const FusionLimits& limits
   const bool fits_upper = holds(upper_, seen.upper);
   const bool fits_lower = holds(lower_, seen.lower);
   const bool nearer_upper = std::abs(upper_.z_m - sighting.z_m) < std::abs(lower_.z_m - sighting.z_m);
-  if (fits_upper ? !fits_lower || nearer_upper : !fits_lower && part_of(upper_)) return &upper_;
-  const bool grows_lower = lower_.exists() && lower_.column && sighting.column && !upper_.exists();
+  const bool confirms_upper = part_of(upper_) && (upper_.trusted() || !lower_.trusted() || !part_of(lower_));
+  if (fits_upper ? !fits_lower || nearer_upper : !fits_lower && confirms_upper) return &upper_;
+  const bool grows_lower =
+      lower_.exists() && !lower_.trusted() && lower_.column && sighting.column && !upper_.exists();
   return fits_lower || part_of(lower_) || grows_lower ? &lower_ : nullptr;
 }
 
@@ -200,9 +214,9 @@ void CellMemory::update_floor_doubt(const CellView& view, bool was_known) {
 bool CellMemory::fuse(const CellView& view, const FusionLimits& limits) {
   Seen seen;
   const bool was_known = lower_.exists();
-  const bool floor_known = lower_.trusted() && !lower_.column;
+  const Level known_lower = lower_, known_upper = upper_;
   for (Sighting sighting : view.sightings) {
-    if (floor_known && sighting.column && sighting.points < kSurePoints) sighting.points = 1;
+    sighting.points = counting_points(sighting, known_lower, known_upper, limits);
     place(sighting, limits, seen);
   }
   const bool doubted = forget_unseen(view, limits, seen) | doubt_unsettled_floor(view, seen);

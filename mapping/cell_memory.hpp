@@ -15,11 +15,11 @@ struct Surface {
   float gradient_x = 0;  ///< rise per metre along x
   float gradient_y = 0;  ///< rise per metre along y
   bool column = false;   ///< too steep to have one height, or points on no plane: z_m is the highest of them
-  /// Of a plane: how far up its slope it was seen in the cell, in thirds of the way from the cell's centre,
+  /// Of a plane: how far up its slope it was seen in the cell, in sevenths of the way from the cell's centre,
   /// of which z_m is the height, to its highest corner; -kCorner..kCorner.
   std::int8_t reach = 0;
 
-  static constexpr std::int32_t kCorner = 3;
+  static constexpr std::int32_t kCorner = 7;
   /// Rise of what is carried on to where it was not seen. Steeper surfaces, 20 degrees, are no floor, and
   /// those of small things far away are not well known.
   static constexpr float kSteepestCarried = 0.36F;
@@ -93,8 +93,9 @@ class CellMemory {
         floor_doubt_(static_cast<std::uint8_t>(std::min(floor_doubt, kMostFloorDoubt))) {}
 
   /// Fuses one frame. A sighting supports the level that it fits (Kalman filter by both variances, so that
-  /// nearer views win) or makes a new one; a few points alone above a floor that is already trusted decide
-  /// only when a third frame has seen them, since what depth edges throw there is seen once or twice. A level
+  /// nearer views win) or makes a new one. What would raise an obstacle that is already trusted decides only
+  /// when a second frame has seen it, and a few points alone above a floor when a third one has, since what
+  /// depth edges throw there is seen once or twice; anything else above a floor decides at once. A level
   /// that was not seen loses support where a ray passed below it or something below it was seen; four times
   /// as much where that view is twice as sharp and of the whole cell. False where the view told nothing.
   bool fuse(const CellView& view, const FusionLimits& limits);

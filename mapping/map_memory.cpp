@@ -12,7 +12,7 @@ namespace floornav {
 namespace {
 
 constexpr std::array<std::uint8_t, 8> kMagic{'f', 'l', 'o', 'o', 'r', 'm', 'a', 'p'};
-constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kVersion = 2;
 constexpr std::size_t kHead = kMagic.size() + 1 + 8 + 8;  ///< magic, version, length, checksum
 constexpr std::int64_t kFarthestTile = 1 << 24;
 

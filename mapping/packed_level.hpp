@@ -27,15 +27,16 @@ class PackedLevel {
             field(rise_code(level.gradient_x, units), kRiseXBit, kRiseBits) |
             field(rise_code(level.gradient_y, units), kRiseYBit, kRiseBits) |
             field(variance_code(level.var_m2), kVarianceBit, kVarianceBits) |
-            field(level.support, kSupportBit, kSupportBits) | field(level.reach, kReachBit, kReachBits) |
-            field(level.column ? 1 : 0, kColumnBit, 1);
+            field(level.support, kSupportBit, kSupportBits) |
+            field(level.column ? kColumn : level.reach, kReachBit, kReachBits);
   }
 
   [[nodiscard]] std::uint64_t word() const { return word_; }
   [[nodiscard]] std::int32_t support() const { return unsigned_at(kSupportBit, kSupportBits); }
   [[nodiscard]] Surface surface(std::int64_t reference) const {
     const std::int64_t height = reference + signed_at(kHeightBit, kHeightBits);
-    const bool column = unsigned_at(kColumnBit, 1) != 0;
+    const std::int32_t reach = signed_at(kReachBit, kReachBits);
+    const bool column = reach == kColumn;
     const float unit = 1.0F / rise_units(column);
     const auto variance_bits =
         static_cast<std::uint32_t>(unsigned_at(kVarianceBit, kVarianceBits) + kLeastVariance);
@@ -44,7 +45,7 @@ class PackedLevel {
             .gradient_x = unit * static_cast<float>(signed_at(kRiseXBit, kRiseBits)),
             .gradient_y = unit * static_cast<float>(signed_at(kRiseYBit, kRiseBits)),
             .column = column,
-            .reach = static_cast<std::int8_t>(signed_at(kReachBit, kReachBits))};
+            .reach = static_cast<std::int8_t>(column ? 0 : reach)};
   }
   [[nodiscard]] Level level(std::int64_t reference) const {
     if (support() == 0) return {};
@@ -53,13 +54,13 @@ class PackedLevel {
 
  private:
   /// Where the fields begin in the word, and the bits that each of them has.
-  static constexpr int kColumnBit = kFreeBits;
-  static constexpr int kSupportBit = 6, kSupportBits = 4;
-  static constexpr int kVarianceBit = 10, kVarianceBits = 9;
-  static constexpr int kReachBit = 19, kReachBits = 3;
+  static constexpr int kSupportBit = kFreeBits, kSupportBits = 4;
+  static constexpr int kVarianceBit = 9, kVarianceBits = 9;
+  static constexpr int kReachBit = 18, kReachBits = 4;
   static constexpr int kRiseYBit = 22, kRiseXBit = 33, kRiseBits = 11;
   static constexpr int kHeightBit = 44, kHeightBits = 20;
   static_assert(Level::kMost < 1 << kSupportBits && Surface::kCorner < 1 << (kReachBits - 1));
+  static constexpr std::int32_t kColumn = -(1 << (kReachBits - 1));  ///< instead of a reach
 
   static constexpr float kMostRise = 1023;
   /// A variance keeps 4 bits of a float's mantissa, and of its exponents those from 2^-30 to 2^1.

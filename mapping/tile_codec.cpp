@@ -21,9 +21,8 @@ constexpr std::uint8_t kLower = 1;
 constexpr std::uint8_t kUpper = 2;
 constexpr std::uint8_t kOverhead = 4;
 constexpr std::uint8_t kFloorDoubt = 8;
-constexpr std::uint8_t kColumn = 128;
-constexpr int kReachBit = 4;
-constexpr std::uint8_t kReach = 7 << kReachBit;
+constexpr int kReachBit = 4;  ///< of a level's first byte: its reach is above, its support below
+constexpr int kColumn = -8;   ///< instead of a reach
 
 std::int64_t units(double value, double unit) {
   return std::llround(value / unit);
@@ -59,8 +58,8 @@ std::int64_t read_difference(std::int64_t& before, std::int64_t most, ByteReader
 }
 
 void write_level(const Level& level, Previous& previous, ByteWriter& out) {
-  const int reach = (level.reach << kReachBit) & kReach;
-  out.byte(static_cast<std::uint8_t>(level.support | reach | (level.column ? kColumn : 0)));
+  const int reach = level.column ? kColumn : level.reach;
+  out.byte(static_cast<std::uint8_t>(level.support | (reach << kReachBit)));
   out.byte(variance_code(level.var_m2));
   write_difference(units(level.z_m, kHeightUnit_m), previous.z, out);
   write_difference(units(level.gradient_x, kRiseUnit), previous.rise_x, out);
@@ -70,9 +69,10 @@ void write_level(const Level& level, Previous& previous, ByteWriter& out) {
 Level read_level(Previous& previous, ByteReader& in) {
   const std::uint8_t head = in.byte();
   Level level;
-  level.column = (head & kColumn) != 0;
-  level.reach = static_cast<std::int8_t>((((head & kReach) >> kReachBit) ^ 4) - 4);
-  level.support = head & static_cast<std::uint8_t>(~(kColumn | kReach));
+  const auto reach = static_cast<std::int8_t>(static_cast<std::int8_t>(head) >> kReachBit);
+  level.column = reach == kColumn;
+  level.reach = level.column ? std::int8_t{0} : reach;
+  level.support = head & ((1 << kReachBit) - 1);
   if (level.support == 0 || level.support > Level::kMost)
     throw std::invalid_argument("a support that cannot be");
   level.var_m2 = variance_of(in.byte());

@@ -71,7 +71,7 @@ TEST(CellMemory, HighestPlaceOfASlopeIsTheMeanOfThoseThatWereSeen) {
     fuse(memory, {sighting});
   }
   ASSERT_NE(memory.decider(), nullptr);
-  EXPECT_NEAR(memory.decider()->reach_m(0.05F), 0.005F * 2 / 3, 1e-6F);
+  EXPECT_NEAR(memory.decider()->reach_m(0.05F), 0.005F * 2 / Surface::kCorner, 1e-6F);
 }
 
 /// Noise in the slope of what is level does not make it higher.
@@ -188,12 +188,23 @@ TEST(CellMemory, SightLineThroughACellWhereTheObstacleIsSeenClearsNothing) {
   EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.5F);
 }
 
-TEST(CellMemory, ColumnIsAsHighAsItsHighestView) {
+TEST(CellMemory, ColumnIsAsHighAsTheHighestThatTwoViewsSaw) {
   CellMemory memory;
   fuse(memory, {column(0.5F)});
   fuse(memory, {column(0.2F)});
   fuse(memory, {column(0.6F)});
+  EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.5F);
+  fuse(memory, {column(0.6F)});
   EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.6F);
+}
+
+/// What lower views show of a column is part of it, but says nothing for a height that one view threw up.
+TEST(CellMemory, ColumnThrownUpOnceIsNotBelievedForWhatIsSeenBelow) {
+  CellMemory memory;
+  for (int view = 0; view < 5; ++view) fuse(memory, {column(0.5F)});
+  fuse(memory, {column(0.6F)});
+  for (int view = 0; view < 5; ++view) fuse(memory, {column(0.4F)});
+  EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.5F);
 }
 
 TEST(CellMemory, ColumnThrownUpByOnePointIsAsHighAsThoseThatMorePointsShow) {

@@ -60,9 +60,9 @@ TEST(EvidenceReader, FarNoiseDoesNotStandOut) {
 TEST(EvidenceReader, ToldIsHowFarUpItsSlopeAPlaneWasSeen) {
   FloorEvidence evidence = floor_with(0.0F, 10, 0.002F);
   evidence.surfels[0].normal = Eigen::Vector3f(-0.4F, 0.0F, 1.0F).normalized();
-  for (const int thirds : {-3, -1, 0, 2, 3}) {
-    evidence.cells[0].top_z_m = 0.01F * static_cast<float>(thirds) / 3.0F;
-    EXPECT_EQ(sightings_of(evidence).at(0).reach, thirds);
+  for (const int part : {-Surface::kCorner, -1, 0, 2, Surface::kCorner}) {
+    evidence.cells[0].top_z_m = 0.01F * static_cast<float>(part) / Surface::kCorner;
+    EXPECT_EQ(sightings_of(evidence).at(0).reach, part);
   }
   evidence.cells[0].top_z_m = 0.02F;
   EXPECT_EQ(sightings_of(evidence).at(0).reach, Surface::kCorner);

@@ -49,7 +49,8 @@ Level random_level(std::mt19937& random) {
   level.gradient_y = 0.1F * z(random);
   level.column = random() % 4 == 0;
   level.support = static_cast<std::uint8_t>(1 + random() % Level::kMost);
-  level.reach = static_cast<std::int8_t>(static_cast<int>(random() % 7) - Surface::kCorner);
+  const int reach = static_cast<int>(random() % (2 * Surface::kCorner + 1)) - Surface::kCorner;
+  level.reach = static_cast<std::int8_t>(level.column ? 0 : reach);
   return level;
 }
 

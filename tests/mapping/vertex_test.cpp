@@ -53,7 +53,7 @@ TEST(SquareOfCells, AcrossAnEdgeCellsAsHighAsTheHighestTellItsHeightTogether) {
 TEST(SquareOfCells, AcrossAnEdgeASlopeIsAsHighAsItsHighestPlaceThatWasSeen) {
   const CellMemory floor = cell(0.0F, 0.0F);
   EXPECT_NEAR(square(floor, cell(0.3F, 0.4F, Surface::kCorner)).surface.z_m, 0.31F, 1e-6F);
-  EXPECT_NEAR(square(floor, cell(0.3F, -0.4F, 1)).surface.z_m, 0.3F + 0.01F / 3, 1e-6F);
+  EXPECT_NEAR(square(floor, cell(0.3F, -0.4F, 1)).surface.z_m, 0.3F + 0.01F / Surface::kCorner, 1e-6F);
   EXPECT_NEAR(square(floor, cell(0.3F, 0.4F, -Surface::kCorner)).surface.z_m, 0.29F, 1e-6F);
 }
 
@@ -64,8 +64,8 @@ TEST(SquareOfCells, SeenInPartIsCarriedOnAlongFloorButNotAlongWhatIsSteeper) {
 
 /// A sloped top that ends in the left cells: there is nothing of it in the square's middle.
 TEST(SquareOfCells, SeenInPartIsNoHigherThanItsHighestPlaceThatWasSeen) {
-  EXPECT_NEAR(square(cell(0.0F, 0.24F, 1), CellMemory{}).surface.z_m, 0.002F, 1e-6F);
-  EXPECT_NEAR(square(cell(0.0F, 0.24F, -1), CellMemory{}).surface.z_m, -0.002F, 1e-6F);
+  EXPECT_NEAR(square(cell(0.0F, 0.28F, 2), CellMemory{}).surface.z_m, 0.002F, 1e-6F);
+  EXPECT_NEAR(square(cell(0.0F, 0.28F, -2), CellMemory{}).surface.z_m, -0.002F, 1e-6F);
 }
 
 TEST(SquareOfCells, NeverSeenHasNoSurface) {
