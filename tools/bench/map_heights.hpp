@@ -15,7 +15,7 @@ struct HeightGain {
 };
 
 struct HeightGainOptions {
-  int configurations = 20;
+  int configurations = 60;
   SensorKind sensor = SensorKind::kKinect;
   std::uint64_t seed = 1001;
 };
