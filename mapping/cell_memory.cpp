@@ -88,9 +88,7 @@ std::int32_t doubt(const Level& level, const CellView& view, const FusionLimits&
 std::int32_t counting_points(const Sighting& sighting, const Level& lower, const Level& upper,
                              const FusionLimits& limits) {
   if (!lower.trusted()) return sighting.points;
-  if (sighting.column && !lower.column) return sighting.points < kSurePoints ? 1 : sighting.points;
-  const bool is_floor_alone = !lower.column && !upper.trusted();
-  if (is_floor_alone) return sighting.points;
+  if (!lower.column) return sighting.column && sighting.points < kSurePoints ? 1 : sighting.points;
   const bool raises =
       sighting.z_m > lower.z_m && !fits(lower, sighting, limits) && !fits(upper, sighting, limits);
   return raises ? std::min(sighting.points, Level::kTrusted - 1) : sighting.points;

@@ -93,7 +93,7 @@ class CellMemory {
         floor_doubt_(static_cast<std::uint8_t>(std::min(floor_doubt, kMostFloorDoubt))) {}
 
   /// Fuses one frame. A sighting supports the level that it fits (Kalman filter by both variances, so that
-  /// nearer views win) or makes a new one. What would raise an obstacle that is already trusted decides only
+  /// nearer views win) or makes a new one. What would raise a column that is already trusted decides only
   /// when a second frame has seen it, and a few points alone above a floor when a third one has, since what
   /// depth edges throw there is seen once or twice; anything else above a floor decides at once. A level
   /// that was not seen loses support where a ray passed below it or something below it was seen; four times

@@ -17,8 +17,7 @@ class LowerBorder {
  public:
   /// Sets the weights of the points next to the border to 0: of as many rows as the plane takes to leave a
   /// side by the threshold, or most of it. Does nothing where few points would be left, or so near that the
-  /// threshold is narrower than 3 cm. Points of weight 0
-  /// are not the plane's.
+  /// threshold is narrower than 3 cm. Points of weight 0 are not the plane's.
   void leave_out(const PlanePool& pool, const RoiCloud& cloud, const Pinhole& camera,
                  const InverseDepthPlane& plane, float threshold_sigmas, std::span<float> weights);
 

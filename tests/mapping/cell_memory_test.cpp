@@ -198,6 +198,16 @@ TEST(CellMemory, ColumnIsAsHighAsTheHighestThatTwoViewsSaw) {
   EXPECT_FLOAT_EQ(memory.decider()->z_m, 0.6F);
 }
 
+/// As poses that drift show it: what stands above a floor is not forgotten for that.
+TEST(CellMemory, TopAboveAFloorStaysWhileEachViewShowsItHigher) {
+  CellMemory memory;
+  for (int view = 0; view < 5; ++view) fuse(memory, {plane(0)});
+  for (int view = 0; view < 15; ++view) {
+    fuse(memory, {plane(0), plane(0.3F + 0.02F * static_cast<float>(view))});
+    EXPECT_GT(memory.decider()->z_m, 0.29F) << view;
+  }
+}
+
 /// What lower views show of a column is part of it, but says nothing for a height that one view threw up.
 TEST(CellMemory, ColumnThrownUpOnceIsNotBelievedForWhatIsSeenBelow) {
   CellMemory memory;
